@@ -20,7 +20,8 @@ from rich.table import Table
 
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.runs.map.run import MapCase, run_map
-from system.maps.plan import MapAxis, MapInput, MapPlan, map_plan, paper_axes
+from system.maps.plan import MapAxis, MapInput, MapPlan, map_plan
+from system.maps.usual_levels import usual_axes
 from system.pump_file.file import load_pump
 from system.work.processes import process_pool
 from system.work.tasks import Executor
@@ -37,7 +38,8 @@ def main() -> None:
     parser.add_argument("--films", action="store_true")
     parser.add_argument("--cluster", action="store_true")
     options = parser.parse_args()
-    paper = map_plan(load_pump("ref90"), paper_axes())
+    pump = load_pump("ref90")
+    paper = map_plan(pump, usual_axes(pump))
     if options.films:
         rows = [timed("112 films by table", paper, Fidelity.FIXED, lambda: process_pool(2))]
     else:
@@ -55,7 +57,7 @@ def finer(plan: MapPlan) -> MapPlan:
     """The paper's box with more levels."""
     pressures = MapAxis(MapInput.PRESSURE, tuple(5e6 + 30e6 * k / (FINE - 1) for k in range(FINE)))
     warm = MapAxis(MapInput.TEMPERATURE, (303.15, 313.15, 323.15, 333.15, 343.15))
-    return map_plan(plan.pump, [*paper_axes(), pressures, warm])
+    return map_plan(plan.pump, [*usual_axes(plan.pump), pressures, warm])
 
 
 def timed(

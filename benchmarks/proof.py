@@ -7,6 +7,7 @@
     python benchmarks/proof.py --part bench               the ten maps
     python benchmarks/proof.py --workers 2                side by side
     python benchmarks/proof.py --cases 0                  runs nothing, writes the page from what is there
+    python benchmarks/proof.py --again 20                 tries cases of an earlier program again, drawn at random
     python benchmarks/proof.py --development --page FILE  other draws, to look at before a mend
     python benchmarks/proof.py --record                   the track record in diagnosis/report, from the outcomes
     python benchmarks/proof.py --write graded 3 FOLDER    writes the recording of a case, for `swashfilm diagnose`
@@ -49,9 +50,12 @@ def main() -> int:
     listed = [case for part in parts for case in cases(part, seed)[: options.cases]]
     folders = [] if options.part not in (None, GIVEN) else given()[: options.cases]
     try:
-        _run(listed, folders, options.results, options.workers)
-        _tell(options)
-        _summary(listed, options.results)
+        if options.again:
+            _again(listed, options.results, options.again, options.workers)
+        else:
+            _run(listed, folders, options.results, options.workers)
+            _tell(options)
+            _summary(listed, options.results)
     except KeyboardInterrupt:
         print("interrupted; what was finished is kept")
     _page(options.results, options.page, seed)
@@ -63,6 +67,7 @@ def _options() -> argparse.Namespace:
     parts = (*(part.value for part in Part), "bench", "ceiling", "rig", "cycles", "tanks", "hst", "films")
     reader.add_argument("--part", choices=parts, help="only one part")
     reader.add_argument("--cases", type=int, metavar="N", help="only the first N cases of each part")
+    reader.add_argument("--again", type=int, metavar="N", help="try N cases of an earlier program again")
     reader.add_argument("--results", type=Path, default=ROOT / "build" / "proof", metavar="DIR")
     reader.add_argument("--page", type=Path, default=ROOT / "docs" / "proof.md", metavar="FILE")
     reader.add_argument("--development", action="store_true", help="the seeds of the development set")
@@ -75,19 +80,44 @@ def _options() -> argparse.Namespace:
 def _run(listed: list, folders: list[Path], results: Path, workers: int) -> None:
     """Diagnose the cases and the given recordings that have no outcome yet, a line each."""
     from proof.store import keep, load, name_of, name_of_folder
-    from proof.trial import try_case, try_folder
-    from proof.wide.case import WideCase
-    from proof.wide.trial import try_wide
+    from proof.trial import try_folder
 
-    wanted = {name_of(case): (try_wide if isinstance(case, WideCase) else try_case, case) for case in listed}
+    wanted = {name_of(case): _task(case) for case in listed}
     wanted |= {name_of_folder(folder): (try_folder, folder) for folder in folders}
     missing = {name: task for name, task in wanted.items() if load(results, name) is None}
     for number, (name, outcome) in enumerate(_outcomes(missing, workers), start=1):
         keep(results, name, outcome)
-        told = ", ".join(f"{one.effect} ({one.pair})" if one.pair else one.effect for one in outcome.claims)
-        told = f"{outcome.verdict}, {outcome.status}{', ' if told else ''}{told}{outcome.failed}"
-        spent = f"{outcome.seconds:.0f} s process time"
-        print(f"{number}/{len(missing)} {outcome.name} (z {outcome.score:.1f}): {told}; {spent}", flush=True)
+        print(f"{number}/{len(missing)} {_line(outcome)}", flush=True)
+
+
+def _again(listed: list, results: Path, count: int, workers: int) -> None:
+    """Diagnose some cases of an earlier program again, a line each; their outcomes replace the earlier ones."""
+    from proof.again import draw, keep_again, told_alike
+    from proof.store import keep, load, name_of
+
+    cases = {name_of(case): case for case in listed}
+    earlier = {name: found for name in cases if (found := load(results, name)) is not None}
+    drawn = {name: _task(cases[name]) for name in draw(earlier, count)}
+    for number, (name, outcome) in enumerate(_outcomes(drawn, workers), start=1):
+        same = told_alike(earlier[name], outcome)
+        keep_again(results, name, same)
+        keep(results, name, outcome)
+        print(f"{number}/{len(drawn)} {'as before' if same else 'changed'}: {_line(outcome)}", flush=True)
+
+
+def _task(case) -> tuple:
+    """The function that tries a case, with the case."""
+    from proof.trial import try_case
+    from proof.wide.case import WideCase
+    from proof.wide.trial import try_wide
+
+    return try_wide if isinstance(case, WideCase) else try_case, case
+
+
+def _line(outcome) -> str:
+    told = ", ".join(f"{one.effect} ({one.pair})" if one.pair else one.effect for one in outcome.claims)
+    told = f"{outcome.verdict}, {outcome.status}{', ' if told else ''}{told}{outcome.failed}"
+    return f"{outcome.name} (z {outcome.score:.1f}): {told}; {outcome.seconds:.0f} s process time"
 
 
 def _summary(listed: list, results: Path) -> None:

@@ -239,16 +239,24 @@ def _from_places(axes: Sequence[Axis], places: Array) -> Array:
 
 def unit_places(axes: Sequence[Axis], points: Array) -> Array:
     """Points (k, d) as places in the unit box; raises FilmInputError with every input that lies outside."""
-    places = np.stack([axis.to_unit(points[:, k]) for k, axis in enumerate(axes)], axis=1)
-    out = [
-        (axis, points[row, k])
-        for k, axis in enumerate(axes)
-        for row in np.flatnonzero(~(np.abs(places[:, k] - 0.5) <= 0.5 + ROUND_OFF))[:1]
-    ]
-    if out:
+    if out := outside(axes, points):
         raise FilmInputError(
             ", ".join(axis.name for axis, _ in out),
             ", ".join(f"{value:.6g}" for _, value in out),
             ", ".join(f"{axis.lower:.6g} .. {axis.upper:.6g}" for axis, _ in out) + ": nothing is extrapolated",
         )
-    return places
+    return _places(axes, points)
+
+
+def outside(axes: Sequence[Axis], points: Array) -> list[tuple[Axis, float]]:
+    """Each input that lies outside the box at some of the points (k, d), with its value at the first of them."""
+    places = _places(axes, points)
+    return [
+        (axis, float(points[row, k]))
+        for k, axis in enumerate(axes)
+        for row in np.flatnonzero(~(np.abs(places[:, k] - 0.5) <= 0.5 + ROUND_OFF))[:1]
+    ]
+
+
+def _places(axes: Sequence[Axis], points: Array) -> Array:
+    return np.stack([axis.to_unit(points[:, k]) for k, axis in enumerate(axes)], axis=1)

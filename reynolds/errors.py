@@ -10,7 +10,7 @@ class InputError(ValueError):
         super().__init__(f"{where}: {found}; expected {expected}")
         self.where, self.found, self.expected = where, found, expected
 
-    def __reduce__(self) -> tuple[type, tuple[str, str, str]]:
+    def __reduce__(self) -> tuple[type, tuple[Any, ...]]:
         """Arguments from which another process makes the same error."""
         return type(self), (self.where, self.found, self.expected)
 
@@ -19,8 +19,20 @@ class FilmInputError(InputError):
     """A film problem that cannot be posed."""
 
 
+class BeyondBarus(FilmInputError):
+    """A pressure beyond the range of Barus' law."""
+
+
 class WallsOverlap(FilmInputError):
-    """A given position at which a part lies in its wall; `where` begins with the part's name."""
+    """A given position at which a part lies in its wall: by its name, at a time (s), with its least gap (m)."""
+
+    def __init__(self, part: str, time: float, least: float) -> None:
+        super().__init__(f"{part} at {time:.6g} s", f"a least gap of {least:.3g} m", "walls apart")
+        self.part, self.time, self.least = part, time, least
+
+    def __reduce__(self) -> tuple[type, tuple[Any, ...]]:
+        """Arguments from which another process makes the same error."""
+        return type(self), (self.part, self.time, self.least)
 
 
 class NotConverged(RuntimeError):

@@ -5,7 +5,7 @@ one pressure field with the evidence of its quality.
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from functools import cached_property
 from math import isfinite
@@ -134,6 +134,16 @@ def film(
         if not _all_finite(values) or values.min() <= 0.0:
             raise FilmInputError(name, f"minimum {values.min():.4g} {unit}", "positive everywhere")
     return Film(thickness, mu, velocity_moving, velocity_fixed, squeeze)
+
+
+def widened(space: FilmSpace, film: Film, growth: Array) -> Film:
+    """A film grown by (vertices,) m at the vertices, by other loads than its own pressure."""
+    corners = film.thickness_at_vertices
+    return replace(
+        film,
+        thickness=film.thickness + space.sample_vertices(growth),
+        thickness_at_vertices=None if corners is None else corners + growth,
+    )
 
 
 def _all_finite(values: Array) -> bool:

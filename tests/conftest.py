@@ -250,6 +250,15 @@ def proof() -> Iterator[Proof]:
     sys.path.remove(place)
 
 
+@pytest.fixture(autouse=True)
+def figures_closed() -> Iterator[None]:
+    """Closes the figures that a result has drawn for a notebook: matplotlib warns of more than twenty."""
+    yield
+    pyplot = sys.modules.get("matplotlib.pyplot")
+    if pyplot is not None:
+        pyplot.close("all")
+
+
 @pytest.fixture(scope="session")
 def shared() -> Path:
     """The project's shared reference material beside the checkout; skips where there is none."""

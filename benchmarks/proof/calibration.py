@@ -72,12 +72,10 @@ def wilson(hits: float, cases: int, z: float = 1.96) -> tuple[float, float]:
 
 def draw(outcomes: Sequence[Outcome], path: Path) -> None:
     """The reliability diagram as a PNG: truth over probability, area by weight, Wilson's 95 % intervals."""
-    import matplotlib
+    from matplotlib.figure import Figure
 
-    matplotlib.use("agg")
-    import matplotlib.pyplot as plt
-
-    figure, axes = plt.subplots(figsize=(5.2, 5.0), layout="constrained")
+    figure = Figure(figsize=(5.2, 5.0), layout="constrained")
+    axes = figure.subplots()
     axes.plot([0, 1], [0, 1], color="0.6", linewidth=1)
     for one in bins(outcomes):
         axes.vlines(one.told, *wilson(one.true * one.cases, one.cases), color="#9aa4ab")
@@ -87,4 +85,3 @@ def draw(outcomes: Sequence[Outcome], path: Path) -> None:
              ylabel="share of cases in which it is the truth", aspect="equal")  # fmt: skip
     axes.set_title(f"{len(outcomes)} cases, weighted to the declared mix; numbers: cases", fontsize=9)
     figure.savefig(path, dpi=130)
-    plt.close(figure)

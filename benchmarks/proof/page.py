@@ -9,6 +9,7 @@ from pathlib import Path
 
 from diagnosis.thresholds import load_thresholds
 
+from .again import sentence as tried_again
 from .calibration import draw
 from .cases import Part, cases
 from .expected import GIVEN, given
@@ -91,7 +92,7 @@ def write_page(results: Path, page: Path, seed: int) -> None:
     kept = [one for one in (load(results, name) for name in names) if one is not None]
     outcomes = [one for one in kept if one.part != GIVEN]
     first = [one for one in outcomes if plant_of(one.part) is Plant.FIRST]
-    pieces = [HEAD, _made_of(planned, outcomes, seed)]
+    pieces = [HEAD, _made_of(planned, outcomes, seed, tried_again(results))]
     if first:
         draw(first, page.with_name(PICTURE))
         pieces += [_gates(first), GATES, _calibration()]
@@ -110,14 +111,15 @@ def write_page(results: Path, page: Path, seed: int) -> None:
     page.write_text("".join(pieces), encoding="utf-8")
 
 
-def _made_of(planned: Sequence[object], outcomes: Sequence[Outcome], seed: int) -> str:
+def _made_of(planned: Sequence[object], outcomes: Sequence[Outcome], seed: int, again: str) -> str:
+    """How many cases there are, by which state of the program; again: a sentence on those tried again."""
     limits = load_thresholds()
     stale = sum(one.program != program() for one in outcomes)
     counts = Counter(one.part for one in outcomes)
     rows = [(part.value, str(len(cases(part, seed))), str(counts[part.value]), _seeds(part, seed)) for part in Part]
     return (
         f"{len(outcomes)} of {len(planned)} cases have been run; {stale} of them by another state of the program "
-        f"than this page's ({program()}).\nThe first cases of each part are a fair sample of it. Thresholds: "
+        f"than this page's ({program()}).\n{again}The first cases of each part are a fair sample of it. Thresholds: "
         f"`diagnosis/thresholds.toml`, sha256 of its values `{limits.digest}`. Seed of the proof {seed}.\n\n"
         + table(("part", "planned", "run", "seeds"), rows)
     )

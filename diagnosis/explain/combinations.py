@@ -23,27 +23,37 @@ def combine(
 ) -> tuple[tuple[Explanation, ...], tuple[str, ...]]:
     """Refitted explanations of several effects, and the refits that failed, as text.
 
-    Effects are added to the best explanation while each gains more than the odds of a name. In addition all pairs
-    of the best singles are screened about the prior mean: a third effect may imitate two.
+    Effects are added to the best explanations while each gains more than the odds of a name: a single effect that
+    imitates two may be ahead of both. In addition all pairs of the best singles are screened about the prior mean.
     """
     known = [each for each in explanations if each.hypothesis.effects and each.hypothesis.component is None]
     if not known:
         return (), ()
-    best = max((each for each in known if each.posterior is not None), key=_weight, default=None)
+    leaders = _leaders([each for each in known if each.posterior is not None], thresholds)
     found: list[Explanation] = []
     failed: list[str] = []
-    while best is not None and len(best.hypothesis.effects) < thresholds.fit.most_effects:
-        tried = _additions(study, best, known, thresholds)
-        if len(best.hypothesis.effects) == 1:
-            tried += [each for each in _pairs(study, known, thresholds) if not _holds(tried, each)]
-        done, reasons = refit_all(study, tried, thresholds, executor, report, hopeless_beside(best, thresholds), best)
-        failed += reasons
-        refitted = [each for each in done if each.posterior is not None]
+    while leaders and len(leaders[0].hypothesis.effects) < thresholds.fit.most_effects:
+        refitted: list[Explanation] = []
+        for leader in leaders:
+            ahead = max((leaders[0], *refitted), key=_weight)
+            tried = [each for each in _additions(study, leader, ahead, known, thresholds) if not _holds(refitted, each)]
+            if leader is leaders[0] and len(leader.hypothesis.effects) == 1:
+                tried += [each for each in _pairs(study, known, thresholds) if not _holds(tried, each)]
+            done, reasons = refit_all(
+                study, tried, thresholds, executor, report, hopeless_beside(ahead, thresholds), leader
+            )
+            failed += reasons
+            refitted += [each for each in done if each.posterior is not None]
         found += refitted
-        ahead = max(refitted, key=_weight, default=None)
-        gained = ahead is not None and ahead.log_weight - best.log_weight > thresholds.name.odds
-        best = ahead if gained else None
+        gained = [one for one in refitted if one.log_weight - leaders[0].log_weight > thresholds.name.odds]
+        leaders = _leaders(gained, thresholds)
     return tuple(found), tuple(failed)
+
+
+def _leaders(refitted: Sequence[Explanation], thresholds: Thresholds) -> list[Explanation]:
+    """The likeliest refitted explanations within the gap of a shortlist behind the first, `most_additions` at most."""
+    ranked = sorted(refitted, key=_weight, reverse=True)[: thresholds.fit.most_additions]
+    return [each for each in ranked if ranked[0].log_weight - each.log_weight <= thresholds.name.shortlist_gap]
 
 
 def _weight(explanation: Explanation) -> float:
@@ -51,19 +61,19 @@ def _weight(explanation: Explanation) -> float:
 
 
 def _additions(
-    study: Study, best: Explanation, known: Sequence[Explanation], thresholds: Thresholds
+    study: Study, leader: Explanation, ahead: Explanation, known: Sequence[Explanation], thresholds: Thresholds
 ) -> list[Explanation]:
-    """The likeliest additions to the best explanation, about its refit, without those without gain."""
-    if best.posterior is None:
+    """The likeliest additions to an explanation, about its refit, of those that promise more than the one ahead."""
+    if leader.posterior is None:
         return []
-    posterior = settled(best.posterior)
+    posterior = settled(leader.posterior)
     found = []
     for each in known:
-        if _apart(best.hypothesis, each.hypothesis):
-            both = together(best.hypothesis, each.hypothesis, thresholds.prior.pair_penalty)
+        if _apart(leader.hypothesis, each.hypothesis):
+            both = together(leader.hypothesis, each.hypothesis, thresholds.prior.pair_penalty)
             gain = linear_gain(study, posterior, each.hypothesis, thresholds)
-            found.append(Explanation(both, best.log_evidence + gain, True, None, 0.0, 0.0, None))
-    return _likeliest([each for each in found if each.log_weight > best.log_weight], thresholds)
+            found.append(Explanation(both, leader.log_evidence + gain, True, None, 0.0, 0.0, None))
+    return _likeliest([each for each in found if each.log_weight > ahead.log_weight], thresholds)
 
 
 def _pairs(study: Study, known: Sequence[Explanation], thresholds: Thresholds) -> list[Explanation]:

@@ -129,11 +129,11 @@ def _likeliest(explanations: Sequence[Explanation], thresholds: Thresholds) -> E
     known = [each for each in explanations if each.hypothesis.kind not in NOT_NAMED]
     if not known:
         return None
-    best = max(known, key=_weight)
+    best = _simplest(max(known, key=_weight), explanations, thresholds)
     behind = behind_unknown(best, explanations) > class_gap(explanations, thresholds)
     if behind and 1.0 - chance_of_form(best, explanations, thresholds) >= thresholds.name.probability:
         return None
-    return _simplest(best, explanations, thresholds)
+    return best
 
 
 def _beside(

@@ -8,10 +8,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reynolds.laws.contact import Asperities, boundary_shear, contact_pressure
+from reynolds.laws.contact import Asperities
 from reynolds.numerics.arrays import Array
 from reynolds.problem import FilmSolution
 from reynolds.solve.loads import dissipated, point_fields
+from reynolds.solve.rubbing import rubbing
 from reynolds.thermal.shear_thinning import ShearLaw, newtonian
 
 Vector = tuple[Array, Array]
@@ -73,17 +74,12 @@ def wall_shear(
     fields, area = point_fields(solution), solution.problem.space.area
     driven, sheared = dissipated(solution, fields.filled)
     mixing = float(np.sum(solution.pressure * solution.upwind_exchange))
-    moving, fixed, nothing = fields.shear_moving, fields.shear_fixed, np.zeros_like(area)
-    if asperities is None:
-        return WallShear(moving, fixed, nothing, driven, sheared, nothing, area, mixing)
-    film, bears = solution.film, contact_pressure(asperities, gap).value
-    slip = [np.broadcast_to(a - b, area.shape) for a, b in zip(film.velocity_moving, film.velocity_fixed, strict=True)]
-    speed, rubs = np.hypot(*slip), boundary_shear(asperities, bears).value
-    along = np.divide(rubs, speed, out=np.zeros(area.shape), where=speed > 0.0)
-    x, y = along * slip[0], along * slip[1]
+    moving, fixed = fields.shear_moving, fields.shear_fixed
+    contact = rubbing(solution.film, asperities, gap, area.shape)
+    x, y = contact.resists
     return WallShear(
-        (moving[0] - x, moving[1] - y), (fixed[0] + x, fixed[1] + y), bears, driven, sheared, rubs * speed * area,
-        area, mixing,
+        (moving[0] - x, moving[1] - y), (fixed[0] + x, fixed[1] + y), contact.pressure, driven, sheared,
+        contact.heat * area, area, mixing,
     )  # fmt: skip
 
 

@@ -34,7 +34,7 @@ from reynolds.floating.stage import FloatingStage
 from reynolds.laws.contact import Asperities
 from reynolds.laws.law import require_positive
 from reynolds.numerics.arrays import Array
-from reynolds.problem import ZERO, Film, FilmProblem, Held
+from reynolds.problem import ZERO, Film, FilmProblem, Held, widened
 from reynolds.solve.loads import evaluate
 
 
@@ -330,16 +330,6 @@ class PistonFilm:
         """Relief of the bore at places of the unit mesh; it turns with the block."""
         angle, depth = 2.0 * around / self.shape.diameter, self._engaged(time) * (1.0 - along)
         return self.shape.bore(depth, angle - self.drive.bore_spin * time)
-
-
-def widened(space: FilmSpace, film: Film, growth: Array) -> Film:
-    """A film grown by (vertices,) m at the vertices, by other loads than its own pressure."""
-    corners = film.thickness_at_vertices
-    return replace(
-        film,
-        thickness=film.thickness + space.sample_vertices(growth),
-        thickness_at_vertices=None if corners is None else corners + growth,
-    )
 
 
 def floating_piston(film: PistonFilm) -> Floating:

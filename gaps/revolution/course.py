@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cache, cached_property
 from typing import Generic, TypeVar, cast
@@ -133,15 +133,6 @@ def instant_of_stage(angle: float, stage: FloatingStage, report: Value) -> GapIn
         passed=report,
         pushed=-float(stage.outer.force @ stage.rate),
     )
-
-
-def weighted_mean(items: Sequence[Item], weights: Array) -> Item:
-    """Weighted mean of reports of several stages, of the same unit.
-
-    Numbers and arrays are averaged, dataclasses field by field; anything else is the last one's. A flow averaged over
-    stages by the weights of their method is the mean flow of the step, to round-off; weights may have either sign.
-    """
-    return with_numbers(items[-1], weights / weights.sum() @ np.array([numbers_of(one) for one in items]))
 
 
 def numbers_of(item: object) -> list[float]:

@@ -22,7 +22,6 @@ from gaps.walls.user_mesh import CHAMBER, FILM, HELD, POCKET, OwnMesh, own_body,
 from reynolds.bodies.chart import Cylinder, OnSphere, Plane, Side
 from reynolds.bodies.compliance import ElasticWalls
 from reynolds.bodies.elasticity import Elastic
-from reynolds.bodies.foundation import both
 from reynolds.bodies.mesh import BodyMesh, disc, hollow_cylinder
 from reynolds.bodies.supports import Supports
 from reynolds.bodies.wall import Body, body_wall, face_wall
@@ -219,14 +218,6 @@ def part_wall(body: Body, film: FilmSpace, *, folder: Path | None = None) -> Ela
     if 2 * found.matrix.rank < film.size:
         return found
     return body_wall(body, film, pockets=pockets, folder=folder)
-
-
-def slipper_walls(slipper: Body, plate: Body, film: FilmSpace, *, folder: Path | None = None) -> ElasticWalls:
-    """Slipper and swash plate together, the pocket pressing on both.
-
-    The plate is one about the slipper's middle, with the slipper's pocket: deformation is local to the film.
-    """
-    return both(part_wall(slipper, film, folder=folder), part_wall(plate, film, folder=folder))
 
 
 def _rings(start: float, edges: tuple[float, ...], end: float, thickness: float, cells: Cells) -> BodyMesh:

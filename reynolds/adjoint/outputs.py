@@ -15,6 +15,7 @@ from reynolds.adjoint.solved import OutputSlopes, SolvedFilm, slopes_of
 from reynolds.errors import FilmInputError
 from reynolds.laws.contact import contact_pressure
 from reynolds.problem import FilmProblem
+from reynolds.solve.bearing import directions
 from reynolds.solve.loads import point_fields
 
 
@@ -90,6 +91,32 @@ class MomentOutput:
 
 
 @dataclass(frozen=True)
+class BearingLoadOutput:
+    """Size of the load of a film whose x runs once around a cylinder, N: |int (p + p_c) exp(2 pi i x/L) dA|.
+
+    Raises FilmInputError for a film without load, whose vector has no direction.
+    """
+
+    unit: ClassVar[str] = "N"
+
+    def slopes(self, film: SolvedFilm) -> OutputSlopes:
+        """As `Output`."""
+        around, pressed, by_gap = directions(film.space), film.pressure[0], None
+        bears = (
+            None if film.problem.asperities is None else contact_pressure(film.problem.asperities, film.solution.gap)
+        )
+        if bears is not None:
+            pressed = pressed + bears.value
+        load = complex(np.sum(pressed * around * film.space.area))
+        if load == 0.0:
+            raise FilmInputError("bearing load", "a film without load", "a film that bears a load")
+        along = np.real(around * load.conjugate()) / abs(load) * film.space.area
+        if bears is not None:
+            by_gap = bears.slope * along
+        return slopes_of(film, abs(load), by_pressure=film.on_unknowns(along), by_gap=by_gap)
+
+
+@dataclass(frozen=True)
 class FlowOutput:
     """Flow out through a named boundary, m3/s; raises FilmInputError for one that is closed or unknown."""
 
@@ -156,17 +183,19 @@ class DissipationOutput:
         return heat_slopes(film)
 
 
-def output_names(problem: FilmProblem) -> dict[str, Output]:
+def output_names(problem: FilmProblem, *, around_cylinder: bool = False) -> dict[str, Output]:
     """The outputs of a film by name.
 
-    load; contact_load of asperities; moment_x, moment_y; flow.NAME of each boundary with a condition; friction, the
+    load; contact_load of asperities; moment_x, moment_y; bearing_load in place of load and moments where the film's x
+    runs once around a cylinder; flow.NAME of each boundary with a condition; friction, the
     magnitude of the force on the moving wall, friction_x, friction_y, friction_torque, and friction_fixed_x,
     friction_fixed_y, friction_fixed_torque of the fixed wall; dissipation.
     """
-    names: dict[str, Output] = {"load": LoadOutput()}
+    names: dict[str, Output] = {"bearing_load": BearingLoadOutput()} if around_cylinder else {"load": LoadOutput()}
     if problem.asperities is not None:
         names["contact_load"] = ContactLoadOutput()
-    names |= {f"moment_{axis.value}": MomentOutput(axis) for axis in Axis}
+    if not around_cylinder:
+        names |= {f"moment_{axis.value}": MomentOutput(axis) for axis in Axis}
     names |= {f"flow.{name}": FlowOutput(name) for name in problem.boundary}
     names["friction"] = FrictionForceOutput()
     for wall, stem in ((Wall.MOVING, "friction"), (Wall.FIXED, "friction_fixed")):

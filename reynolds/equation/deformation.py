@@ -13,13 +13,12 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csc_array, csr_array, eye_array, issparse
-from scipy.sparse.linalg import splu
 
 from reynolds.bodies.compliance import LowRank, WallMatrix, WallOperator, columns_of, full, transposed_product
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.laws.contact import LOWEST_RATIO, Asperities, contact_pressure
 from reynolds.laws.law import Tangent
-from reynolds.linear.elastic import Answer, dense_answer, singular
+from reynolds.linear.elastic import Answer, dense_answer, sparse_answer
 from reynolds.numerics.array_kernels import norm
 from reynolds.numerics.arrays import Array
 from reynolds.problem import FilmProblem, Pocket
@@ -72,11 +71,12 @@ def settled_deformation(meeting: Meeting, given: Array, alone: Array, start: Arr
         closing = change > ROOM * beyond
         share = float(np.min(ROOM * beyond[closing] / change[closing], initial=1.0))
         for _ in range(MOST_HALVINGS):
-            new, after = left(found - share * change)
+            tried = found - share * change
+            new, after = left(tried)
             if norm(after) < (1.0 - LEAST_GAIN * share) * norm(rest):
                 break
             share *= 0.5
-        found, touch, rest = found - share * change, new, after
+        found, touch, rest = tried, new, after
     raise FilmNotConverged(
         f"the deformation of walls in contact not converged after {MAX_STEPS} steps", "a thicker film, or stiffer walls"
     )
@@ -257,8 +257,4 @@ def _less(matrix: Array | csr_array) -> Answer:
     """Solver of the identity less a matrix."""
     if not isinstance(matrix, csr_array):
         return dense_answer(np.eye(len(matrix)) - matrix)
-    try:
-        factor = splu(csc_array(eye_array(matrix.shape[0]) - matrix))
-    except RuntimeError as reason:  # SuperLU: "Factor is exactly singular"
-        raise singular(str(reason)) from None
-    return lambda load, _: np.asarray(factor.solve(load))
+    return sparse_answer(csc_array(eye_array(matrix.shape[0]) - matrix))

@@ -92,7 +92,7 @@ def full_film(
     shape = floating.shape_at(time)
     at = posed(shape, modes_on(shape.space, floating.modes_at(time), floating.pockets), q)
     if shape.walls is None and not at.least > lowest_gap(shape):
-        raise WallsOverlap(f"{floating.name} at {time:.6g} s", f"a least gap of {at.least:.3g} m", "walls apart")
+        raise WallsOverlap(floating.name, time, at.least)
     full = replace(shape, film=at.film, asperities=at.asperities, boundary=filled(floating, shape, q))
     oil = oil_held(full) if initial is None else oil_held(full, initial.fraction, initial.pressure)
     return joined(floating, StepStart(oil, q, np.zeros(len(q)) if rate is None else rate))

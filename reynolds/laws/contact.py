@@ -61,26 +61,10 @@ class Asperities:
         return float(_PRESSURE_FACTOR * self.roughness_product**2 * np.sqrt(self.height / self.radius))
 
 
-def asperities_of(
-    elastic_factor: float, roughness_product: float, height: float, modulus: float, friction_coefficient: float,
-    summit_height: float = 0.0, shear_limit: float = np.inf,
-) -> Asperities:  # fmt: skip
-    """Asperities by K = (16 sqrt2 pi/15) (eta beta sigma)^2 sqrt(sigma/beta) and eta beta sigma, both numbers.
-
-    Engine bearings are published with K and the summits' plane (Sander 2015). K alone sets the pressure;
-    the product, 0.03 .. 0.05 for most finished surfaces, then only enters the real area of contact.
-    """
-    given = {"elastic_factor": elastic_factor, "roughness_product": roughness_product, "height": height}
-    require_positive("asperities", **given)
-    radius = height / (elastic_factor / (_PRESSURE_FACTOR * roughness_product**2)) ** 2
-    density = roughness_product / (radius * height)
-    return Asperities(density, radius, height, modulus, friction_coefficient, summit_height, shear_limit)
-
-
 def composite_modulus(modulus_1: float, poisson_1: float, modulus_2: float, poisson_2: float) -> float:
     """E' (Pa) of two walls, 1/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, as Greenwood and Tripp define it.
 
-    The E' of elastohydrodynamic formulas (`ehl`) is twice this one.
+    The E' of elastohydrodynamic formulas is twice this one.
     """
     require_positive("composite modulus", modulus_1=modulus_1, modulus_2=modulus_2)
     return 1.0 / ((1.0 - poisson_1**2) / modulus_1 + (1.0 - poisson_2**2) / modulus_2)

@@ -118,7 +118,7 @@ class Aerated:
     The free air follows V ~ P^(-1/n), n = 1 isothermal (small bubbles), 1.4 adiabatic. The mass of the air is
     left out (0.1 % of the oil's). The slope jumps where the last bubble dissolves.
     Source: Nykanen, Esque and Ellman 2000; Kim and Murrenhoff 2012; Gholizadeh, Burton and Schoenau 2011.
-    Raises FilmInputError at and below 1 % of the absolute `atmosphere` (Pa at zero gauge): vapour, not this law.
+    Raises FilmInputError below 1 % of the absolute `atmosphere` (Pa at zero gauge): vapour, not this law.
     """
 
     liquid: DensityLaw
@@ -157,9 +157,3 @@ class Aerated:
         if self.bunsen == 0.0:
             return np.inf if self.free_air > 0.0 else 0.0
         return self.atmosphere * self.free_air / (self.bunsen * (1.0 - self.free_air))
-
-
-def effective_bulk_modulus(law: DensityLaw, pressure: ArrayLike) -> Array:
-    """K = rho dp/drho (Pa) of any density law at a gauge pressure (Pa)."""
-    ratio, slope = law(np.asarray(pressure, dtype=float))
-    return np.asarray(ratio / slope)

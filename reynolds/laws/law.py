@@ -19,13 +19,16 @@ class Tangent(NamedTuple):
     slope: Array
 
 
-def within(where: str, found: ArrayLike, lowest: float, highest: float, unit: str, remedy: str = "") -> Array:
-    """The values as an array, all of them in [lowest, highest]: else FilmInputError, which a NaN raises too."""
+def within(
+    where: str, found: ArrayLike, lowest: float, highest: float, unit: str, remedy: str = "",
+    kind: type[FilmInputError] = FilmInputError,
+) -> Array:  # fmt: skip
+    """The values as an array, all of them in [lowest, highest]: else an error of the kind, which a NaN raises too."""
     values = np.asarray(found, dtype=float)
     if not np.all((values >= lowest) & (values <= highest)):
         span = f"{np.min(values):.6g} .. {np.max(values):.6g} {unit}"
         advice = f"; {remedy}" if remedy else ""
-        raise FilmInputError(where, span, f"{lowest:.6g} .. {highest:.6g} {unit}{advice}")
+        raise kind(where, span, f"{lowest:.6g} .. {highest:.6g} {unit}{advice}")
     return values
 
 

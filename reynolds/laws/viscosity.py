@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import BeyondBarus, FilmInputError
 from reynolds.laws.law import Tangent, require_positive, within
 from reynolds.laws.oil import HIGHEST_TEMPERATURE, LOWEST_TEMPERATURE, WALTHER_SHIFT, Oil, walther, walther_coefficients
 
@@ -20,10 +20,10 @@ ROELANDS_HIGHEST_PRESSURE = 1.0e9  # Pa; above, most oils are near their glass t
 def barus(pressure: ArrayLike, viscosity: ArrayLike, coefficient: float) -> Tangent:
     """mu = mu0 exp(alpha p) and dmu/dp; p Pa gauge, mu0 Pa s, alpha 1/Pa; arrays broadcast.
 
-    Source: Barus 1893. Validity: moderate pressure; raises FilmInputError beyond +-0.3 GPa.
+    Source: Barus 1893. Validity: moderate pressure; raises BeyondBarus beyond +-0.3 GPa.
     """
     remedy = "Roelands' law holds to 1 GPa"
-    p = within("Barus, pressure", pressure, -BARUS_HIGHEST_PRESSURE, BARUS_HIGHEST_PRESSURE, "Pa", remedy)
+    p = within("Barus, pressure", pressure, -BARUS_HIGHEST_PRESSURE, BARUS_HIGHEST_PRESSURE, "Pa", remedy, BeyondBarus)
     mu = np.asarray(viscosity, dtype=float) * np.exp(coefficient * p)
     return Tangent(mu, coefficient * mu)
 
@@ -87,17 +87,6 @@ class RoelandsIndex:
         return roelands(pressure, viscosity_at_reference, self.index)
 
 
-def wooster(viscosity: ArrayLike) -> np.ndarray:
-    """Estimate of the pressure-viscosity coefficient, 1/Pa, of a mineral oil of viscosity mu0 (Pa s).
-
-    alpha = (0.6 + 0.965 log10(mu0 in mPa s)) 1e-8. Source: Wooster, as given by Stachowiak and
-    Batchelor, Engineering Tribology. Paraffinic mineral oils within some 20 %; raises FilmInputError outside
-    1 mPa s .. 10 Pa s. A measured value is better.
-    """
-    mu0 = within("Wooster, viscosity at zero pressure", viscosity, 1e-3, 10.0, "Pa s")
-    return np.asarray((0.6 + 0.965 * np.log10(1e3 * mu0)) * 1e-8)
-
-
 @dataclass(frozen=True)
 class Walther:
     """Dynamic viscosity of an oil by ASTM D341 (`oil.walther`) at constant density: law(T) -> (mu, dmu/dT).
@@ -152,9 +141,3 @@ def vogel_through(temperatures: tuple[float, float, float], viscosities: tuple[f
     c = (t3 - ratio * t1) / (ratio - 1.0)
     b = (y1 - y2) * (t1 + c) * (t2 + c) / (t2 - t1)
     return Vogel(float(np.exp(y1 - b / (t1 + c))), float(b), float(c))
-
-
-def vogel_of(oil: Oil, temperatures: tuple[float, float, float]) -> Vogel:
-    """Vogel's law that meets Walther's law of an oil at three rising temperatures (K)."""
-    first, second, third = Walther(oil)(np.array(temperatures)).value
-    return vogel_through(temperatures, (float(first), float(second), float(third)))

@@ -20,6 +20,7 @@ from scipy.sparse.linalg import SuperLU, splu
 from reynolds.bodies.compliance import WallOperator, columns_of, compliance_of, contact_of
 from reynolds.errors import FilmNotConverged
 from reynolds.linear import elastic_kernels as kernels
+from reynolds.linear.factor import eliminate
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.gmres import gmres
 
@@ -75,7 +76,7 @@ def compliant_answer(balance: WallBalance, near: NearFactor | None = None) -> An
     """
     size = len(balance.pressures)
     if isinstance(balance.wider, csr_array):
-        return _sparse(csc_array(balance.rigid + balance.slope @ (balance.wider * balance.pressures[None, :])))
+        return sparse_answer(csc_array(balance.rigid + balance.slope @ (balance.wider * balance.pressures[None, :])))
     if np.count_nonzero(balance.pressures) <= DENSE_LIMIT:
         alone = _alone(balance)
         return reduced_answer(balance) if size - np.count_nonzero(alone) > SMALL else _coupled_answer(balance, alone)
@@ -118,7 +119,7 @@ def reduced_answer(balance: WallBalance) -> Answer:
     """The answer of J by the dense factor of its Schur complement for the pressures on the walls."""
     alone = _alone(balance)
     rest = np.flatnonzero((balance.pressures == 0.0) & ~alone)
-    factor = _eliminated(csc_array(csr_array(balance.rigid)[rest][:, rest])) if rest.size else None
+    factor = eliminate(csc_array(csr_array(balance.rigid)[rest][:, rest])) if rest.size else None
     if factor is None and rest.size:  # J need not be singular where the part without deformation is
         return _whole_answer(balance, np.flatnonzero(balance.pressures))
     return _Reduced(balance, np.flatnonzero(alone), rest, factor)
@@ -212,24 +213,16 @@ def _whole_answer(balance: WallBalance, free: NDArray[np.intp]) -> Answer:
 
 
 def _rigid_answer(rigid: csc_array) -> Answer | None:
-    factor = _eliminated(rigid)
+    factor = eliminate(rigid)
     return None if factor is None else lambda load, _: np.asarray(factor.solve(load))
 
 
-def _eliminated(matrix: csc_array) -> SuperLU | None:
-    """Factor of a matrix of symmetric pattern without pivoting; None where a pivot vanishes."""
-    options = {"SymmetricMode": True, "Equil": False}
-    try:
-        return splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=1e-3, options=options)
-    except RuntimeError:  # "Factor is exactly singular"
-        return None
-
-
-def _sparse(matrix: csc_array) -> Answer:
+def sparse_answer(matrix: csc_array) -> Answer:
+    """The answer of a sparse matrix, for loads of any number of columns. Raises FilmNotConverged if singular."""
     try:
         factor = splu(matrix)
-    except RuntimeError as reason:
-        raise singular(str(reason)) from None
+    except RuntimeError as reason:  # "Factor is exactly singular"
+        raise _singular(str(reason)) from None
     return lambda load, tolerance: np.asarray(factor.solve(load))
 
 
@@ -243,11 +236,11 @@ def dense_answer(matrix: Array) -> Answer:
     by_rows = matrix.flags.c_contiguous
     factor, pivots, fault = lapack.dgetrf(matrix.T if by_rows else matrix, overwrite_a=by_rows)
     if fault:
-        raise singular("a pivot is zero")
+        raise _singular("a pivot is zero")
     return lambda load, tolerance: np.asarray(lapack.dgetrs(factor, pivots, load, trans=by_rows)[0])
 
 
-def singular(reason: str) -> FilmNotConverged:
+def _singular(reason: str) -> FilmNotConverged:
     """The error of a singular balance."""
     what = f"the balance between elastic walls is singular ({reason})"
     return FilmNotConverged(what, "stiffer walls, or a thicker film")

@@ -210,7 +210,7 @@ class GeneralFactor:
         rows, columns = self._scale
         answer, good = _refined(self._lu, self._matrix, rows * load)
         if not good:
-            self._lu = _eliminate(self._matrix, threshold=1.0)
+            self._lu = eliminate(self._matrix, threshold=1.0)
             answer, good = _refined(self._lu, self._matrix, rows * load)
         if not good:
             raise FilmNotConverged("the linearised film balance is singular", "a boundary that holds a pressure")
@@ -223,7 +223,7 @@ class GeneralFactor:
         """Afterwards `_lu` is an elimination with pivots on the diagonal."""
         self._scaled()
         assert self._matrix is not None
-        self._lu = _eliminate(self._matrix, threshold=1e-3)
+        self._lu = eliminate(self._matrix)
 
     def _scaled(self) -> None:
         """Both triangles, with rows and columns scaled to a largest entry of one."""
@@ -248,8 +248,12 @@ def _largest(values: Array, place: NDArray[np.int32], size: int) -> Array:
     return found
 
 
-def _eliminate(matrix: csc_array, threshold: float) -> SuperLU | None:
-    """SuperLU (Li 2005); None where a pivot vanishes."""
+def eliminate(matrix: csc_array, threshold: float = 1e-3) -> SuperLU | None:
+    """SuperLU (Li 2005); None where a pivot vanishes.
+
+    threshold: of the largest in its column, below which a pivot is left; below 1 pivots are those of the diagonal
+    where they can be, for a matrix of symmetric pattern.
+    """
     options = {"SymmetricMode": threshold < 1.0, "Equil": False}
     order = "MMD_AT_PLUS_A" if threshold < 1.0 else "COLAMD"
     try:

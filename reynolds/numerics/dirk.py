@@ -8,8 +8,8 @@ balance of its floating wall, or an equation of one line). A method combines its
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
-from math import sqrt
+from dataclasses import dataclass
+from math import isfinite, sqrt
 from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
@@ -127,8 +127,10 @@ class AcceptedStep(Generic[S]):
         return self.state.stage
 
 
-def advance(tableau: Tableau, solve: StageSolver[S], state: State[S], step: float) -> AcceptedStep[S]:
-    """One step (s) of a method from a state.
+def advance(
+    tableau: Tableau, solve: StageSolver[S], state: State[S], step: float, end: float | None = None
+) -> AcceptedStep[S]:
+    """One step (s) of a method from a state, to its `end` (s): without one, a step after the state.
 
     Stage i solves y_i = y + step sum_j matrix[i][j] rate_j, and the last one is the end. q is integrated as if by its
     own rate, which is exact where y is linear in q (a full film); this enters the error and the guesses alone. Raises
@@ -139,6 +141,9 @@ def advance(tableau: Tableau, solve: StageSolver[S], state: State[S], step: floa
     held_rates: list[Array] = []
     q_rates, acceleration, at = [state.rate], state.acceleration, 0.0
     stage = state.stage
+    # A node may differ by round-off from the sum of a time and the way to it: the last stage is at the node itself.
+    until = state.time + step if end is None else end
+    times = [*(state.time + place * step for place in tableau.places[:-1]), until]
     for number, (row, place) in enumerate(zip(tableau.matrix, tableau.places, strict=True)):
         own = row[number] * step
         before = held + _sum(row[:number], held_rates, step)
@@ -146,7 +151,7 @@ def advance(tableau: Tableau, solve: StageSolver[S], state: State[S], step: floa
         held_before = np.ascontiguousarray(before[:, 0])
         passed, at = (place - at) * step, place
         guess = q_before + own * (q_rates[-1] + passed * acceleration)
-        stage = solve(state.time + place * step, held_before, own, guess, stage)
+        stage = solve(times[number], held_before, own, guess, stage)
         after = stage.holds[:, None]
         if tangent is not None:
             tangent = StateTangent(*stage.propagated(before[:, 1:]))
@@ -155,8 +160,8 @@ def advance(tableau: Tableau, solve: StageSolver[S], state: State[S], step: floa
         q_rates.append((stage.q - q_before) / own)
         acceleration = (q_rates[-1] - q_rates[-2]) / passed
     assert stage is not None
-    end = State(state.time + step, stage.q, stage.holds, q_rates[-1], acceleration, stage, tangent)
-    return AcceptedStep(end, step, np.asarray(_sum(tableau.error, q_rates, step)))
+    reached = State(until, stage.q, stage.holds, q_rates[-1], acceleration, stage, tangent)
+    return AcceptedStep(reached, step, np.asarray(_sum(tableau.error, q_rates, step)))
 
 
 def _beside(column: Array, others: Array | None) -> Array:
@@ -242,13 +247,12 @@ def _kept(
     for _ in range(MOST_REFUSALS):
         step = _towards(node - state.time, pace.step)
         try:
-            taken = advance(tableau, solve, state, step)
+            taken = advance(tableau, solve, state, step, node if step == node - state.time else None)
         except FilmNotConverged as failure:
             reason, pace = failure, pace.refused(step, 0.5)
             continue
-        taken = replace(taken, state=replace(taken.state, time=node)) if step == node - state.time else taken
         error = excess(taken)
-        if error <= 1.0 or step <= shortest:
+        if error <= 1.0 or (step <= shortest and isfinite(error)):
             return taken, pace.kept(step, min(error, 1.0), order)
         reason = FilmNotConverged(
             f"error {error:.3g} times its tolerance", "a wider tolerance, or nodes where the motion bends"

@@ -33,7 +33,8 @@ def vertex_fields(solution: FilmSolution) -> dict[str, tuple[Array, str]]:
     if problem.walls is not None or solution.deformation.any():
         found["deformation"] = (solution.deformation, "m")
     if problem.asperities is not None:
-        found["contact_pressure"] = (np.asarray(contact_pressure(problem.asperities, thickness).value), "Pa")
+        gap = problem.space.to_vertices(solution.gap)
+        found["contact_pressure"] = (np.asarray(contact_pressure(problem.asperities, gap).value), "Pa")
     return found
 
 

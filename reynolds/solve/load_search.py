@@ -5,6 +5,7 @@ The film's thickness is then a shape, to which h = shape + separation + slope_x 
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -14,6 +15,7 @@ from reynolds.numerics.arrays import Array
 from reynolds.problem import FilmProblem, FilmSolution
 from reynolds.solve.loads import pressure_integrals
 from reynolds.solve.solver import FilmSolver
+from reynolds.solve.warm_start import from_last_or_anew
 
 TOLERANCE = 1e-6  # of the load, and of the load at the film's edge for moments
 MOST_FILMS = 200
@@ -99,10 +101,7 @@ def _warmed(problem: FilmProblem) -> Solve:
 
     def solve(now: FilmProblem) -> FilmSolution:
         nonlocal last
-        try:
-            last = solver.solve(now, last)
-        except FilmNotConverged:
-            last = solver.solve(now)
+        last = from_last_or_anew(partial(solver.solve, now), last)
         return last
 
     return solve

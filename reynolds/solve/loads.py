@@ -10,10 +10,11 @@ from reynolds.equation.coefficients import along, at_points, isotropic
 from reynolds.equation.hourglass import saved_heat
 from reynolds.equation.rough_overlap import vertex_thickness
 from reynolds.fem import kernels
-from reynolds.laws.contact import boundary_shear, contact_pressure
+from reynolds.laws.contact import contact_pressure
 from reynolds.laws.roughness import Directional, pressure_factors, shear_factors, sliding_factor
 from reynolds.numerics.arrays import Array
 from reynolds.problem import Cavitation, FilmSolution, Pocket
+from reynolds.solve.rubbing import rubbing
 
 
 @dataclass(frozen=True)
@@ -97,30 +98,16 @@ def point_fields(solution: FilmSolution) -> PointFields:
         filled = filled * factors.couette.value
         on_moving = tuple(factors.couette.value * d - c for d, c in zip(drag, cross, strict=True))
         on_fixed = tuple(factors.couette.value * d + c for d, c in zip(drag, cross, strict=True))
-    contact, rubbing = _contact(solution, slip)
+    contact = rubbing(film, problem.asperities, solution.gap, problem.space.area.shape)
     w = film.moving_share
-    moving = [-w * p - d - r for p, d, r in zip(pull, on_moving, rubbing, strict=True)]
-    fixed = [-(1.0 - w) * p + d + r for p, d, r in zip(pull, on_fixed, rubbing, strict=True)]
-    return PointFields(at, (at_x, at_y), contact, (moving[0], moving[1]), (fixed[0], fixed[1]), filled)
+    moving = [-w * p - d - r for p, d, r in zip(pull, on_moving, contact.resists, strict=True)]
+    fixed = [-(1.0 - w) * p + d + r for p, d, r in zip(pull, on_fixed, contact.resists, strict=True)]
+    return PointFields(at, (at_x, at_y), contact.pressure, (moving[0], moving[1]), (fixed[0], fixed[1]), filled)
 
 
 def _turned(tensor: Directional, vector: tuple[Array, ...]) -> tuple[Array, Array]:
     x, y = vector
     return tensor.x.value * x + tensor.xy.value * y, tensor.xy.value * x + tensor.y.value * y
-
-
-def _contact(solution: FilmSolution, slip: tuple[Array, ...]) -> tuple[Array, tuple[Array, ...]]:
-    """Contact pressure (Pa) and the shear (Pa) with which it resists the sliding of the moving wall."""
-    shape = solution.problem.space.area.shape
-    asperities = solution.problem.asperities
-    if asperities is None:
-        nothing = np.zeros(shape)
-        return nothing, (nothing, nothing)
-    bears = np.broadcast_to(contact_pressure(asperities, solution.gap).value, shape)
-    rubs = boundary_shear(asperities, bears).value
-    speed = np.hypot(*(np.broadcast_to(part, shape) for part in slip))
-    along = [np.divide(part, speed, out=np.zeros(shape), where=speed > 0.0) for part in slip]
-    return bears, tuple(rubs * part for part in along)
 
 
 def evaluate(solution: FilmSolution, nodal: Array) -> tuple[Array, Array, Array]:
@@ -144,10 +131,10 @@ def loads(solution: FilmSolution, weight: Array | None = None) -> Loads:
     space, film = solution.problem.space, solution.film
     fields = point_fields(solution)
     area = space.area
-    rubbing = area if weight is None else area * weight
+    counted = area if weight is None else area * weight
     x, y, _ = space.points_in_space
-    moving = [float(np.sum(t * rubbing)) for t in fields.shear_moving]
-    fixed = [float(np.sum(t * rubbing)) for t in fields.shear_fixed]
+    moving = [float(np.sum(t * counted)) for t in fields.shear_moving]
+    fixed = [float(np.sum(t * counted)) for t in fields.shear_fixed]
     flow, drawn = _edge_flows(solution)
     squeeze_flow = float(solution.storage_rate.sum())
     made = solution.problem.cavitation is Cavitation.REYNOLDS
@@ -166,8 +153,8 @@ def loads(solution: FilmSolution, weight: Array | None = None) -> Loads:
         film_thickness_min=float(min(vertex_thickness(solution).min(), film.thickness.min())),
         friction_moving=(moving[0], moving[1]),
         friction_fixed=(fixed[0], fixed[1]),
-        friction_torque_moving=_torque(fields.shear_moving, x, y, rubbing),
-        friction_torque_fixed=_torque(fields.shear_fixed, x, y, rubbing),
+        friction_torque_moving=_torque(fields.shear_moving, x, y, counted),
+        friction_torque_fixed=_torque(fields.shear_fixed, x, y, counted),
         dissipation=_dissipation(solution, fields, weight),
         flow=flow,
         squeeze_flow=squeeze_flow,
@@ -272,8 +259,8 @@ def dissipated(solution: FilmSolution, filled: Array | None = None) -> tuple[Arr
         if surface is not None:
             filled = filled * sliding_factor(surface, film.thickness).value
     sliding = filled * film.sliding_viscosity * (slip[0] ** 2 + slip[1] ** 2) / film.thickness
-    rubbing = sum(a * b for a, b in zip(_contact(solution, slip)[1], slip, strict=True))
-    return _driven(solution), (sliding + rubbing) * space.area
+    contact = rubbing(film, solution.problem.asperities, solution.gap, space.area.shape)
+    return _driven(solution), (sliding + contact.heat) * space.area
 
 
 def _driven(solution: FilmSolution) -> Array:

@@ -16,6 +16,7 @@ from reynolds.numerics.arrays import Array
 from reynolds.problem import ZERO, FilmProblem, FilmSolution, Storage
 from reynolds.solve.boundary import spread
 from reynolds.solve.solver import FilmSolver
+from reynolds.solve.warm_start import from_last_or_anew
 
 MOST_HALVINGS = 12  # of a step on which the cavity does not converge
 
@@ -52,7 +53,7 @@ def march(
     start: float = 0.0,
     held: Array | None = None,
 ) -> Iterator[FilmInstant[FilmSolution]]:
-    """The film at start + step, start + 2 step, ... up to end (s), one instant at a time: as `march_with`."""
+    """The film after each of equal steps of at most `step` (s) up to end (s), one at a time: as `march_with`."""
 
     def solve(problem: FilmProblem, last: FilmSolution | None) -> FilmSolution:
         return from_last_or_anew(lambda warm: solver.solve(problem, start=warm), last)
@@ -69,7 +70,7 @@ def march_with(
     start: float = 0.0,
     held: Array | None = None,
 ) -> Iterator[FilmInstant[Solved]]:
-    """The film at start + step, start + 2 step, ... up to end (s), one instant at a time, each solved by `solve`.
+    """The film after each of equal steps of at most `step` (s) up to end (s), one at a time, each solved by `solve`.
 
     Solves d(theta r h)/dt + div q = 0 with `problem_at(t)` the film at time t, without storage: its thickness,
     wall speeds and boundary pressures; its squeeze is not used. `held` (size,) m3 is the unknowns' oil at
@@ -81,7 +82,7 @@ def march_with(
         raise FilmInputError("time, end", f"{end:g} s", f"after the start, {start:g} s")
     if not (np.isfinite(step) and step > 0.0):
         raise FilmInputError("time, step", f"{step:g} s", "above zero")
-    count = max(1, int(np.ceil((end - start) / step * (1.0 - 1e-9))))
+    count = equal_steps(end - start, step)
     first = problem_at(start)
     before = oil_held(first) if held is None else held
     last: Solved | None = None
@@ -97,6 +98,11 @@ def march_with(
         for instant in _stepped(solve, still, before, last, begin, until):
             before, last = instant.solution.holds, instant.solution
             yield instant
+
+
+def equal_steps(duration: float, longest: float) -> int:
+    """Number of equal steps over a duration (s), none of them longer than the longest (s) but for round-off."""
+    return max(1, int(np.ceil(duration / longest * (1.0 - 1e-9))))
 
 
 def oil_held(problem: FilmProblem, film_fraction: float | Array = 1.0, pressure: Array | None = None) -> Array:
@@ -141,13 +147,3 @@ def _stepped(
         at += step
         before, last = solution.holds, solution
         yield FilmInstant(at, step, solution)
-
-
-def from_last_or_anew(solve: Callable[[Solved | None], Solved], last: Solved | None) -> Solved:
-    """The solution from the step before; where that fails (a cavity opens everywhere), from a cold start."""
-    try:
-        return solve(last)
-    except FilmNotConverged:
-        if last is None:
-            raise
-        return solve(None)

@@ -137,7 +137,7 @@ def _newton(problem: FlowProblem, system: Sparse, density: float, start: Array, 
     fixed = np.append(problem.held.unknowns, count) if problem.enclosed else problem.held.unknowns
     free = np.setdiff1d(np.arange(space.size), fixed)
     force = np.zeros(count) if problem.force is None else problem.force
-    change = np.inf
+    change = fastest = np.inf
     for step in range(1, most + 1):
         rest, slope = -(system @ unknowns), system
         rest[:count] += force
@@ -147,12 +147,15 @@ def _newton(problem: FlowProblem, system: Sparse, density: float, start: Array, 
             slope = system + bmat([[density * by_velocity, None], [None, _empty(space)]]).tocsr()
         way = _solved(slope[free][:, free], rest[free])
         unknowns[free] += way
-        change = float(np.abs(way[: np.searchsorted(free, count)]).max() / np.abs(unknowns[:count]).max())
-        if density == 0.0 or change <= TOLERANCE:
+        change = float(np.abs(way[: np.searchsorted(free, count)]).max())
+        fastest = float(np.abs(unknowns[:count]).max())
+        if density == 0.0 or change <= TOLERANCE * fastest:  # of a fluid at rest both are zero
             return Flow(problem, unknowns[:count], unknowns[count:], density, step)
-        if not change < 1e3:
+        if not change < 1e3 * fastest:
             break
-    raise FilmNotConverged(f"last change {change:.1e} of the velocity", "a smaller step of the density")
+    raise FilmNotConverged(
+        f"last change {change:.1e} m/s of a velocity up to {fastest:.1e} m/s", "a smaller step of the density"
+    )
 
 
 def _empty(space: StokesSpace) -> Sparse:

@@ -17,7 +17,7 @@ from reynolds.errors import FilmInputError, FilmNotConverged, InputError
 from reynolds.laws.fluid import Fluid, ViscosityLaw, isoviscous
 from reynolds.numerics.anderson import History
 from reynolds.numerics.arrays import Array
-from reynolds.problem import FilmProblem, FilmSolution
+from reynolds.problem import FilmProblem, FilmSolution, widened
 from reynolds.solve.solver import FilmSolver
 from reynolds.thermal.energy import FilmTemperature, Heat, solve_energy
 from reynolds.thermal.film_profile import FilmLevels, FlowProfile, dowson, film_with, scaled, shear_rate
@@ -83,7 +83,7 @@ class _Conditions(NamedTuple):
 
 @dataclass(frozen=True)
 class _Guess:
-    """Viscosity over the resting oil's (size, m), and deformation by heat over the given film (vertices,)."""
+    """Viscosity over the resting oil's (size, m), and deformation by heat over the yardstick (vertices,)."""
 
     share: Array
     opened: Array
@@ -101,12 +101,12 @@ class _Guess:
 
 @dataclass(frozen=True)
 class _Work:
-    """Constants of the rounds: the case, levels, solver, and the given film (vertices,) m."""
+    """Constants of the rounds: the case, levels, solver, and the yardstick (vertices,) m of deformation by heat."""
 
     posed: ThermalCase
     across: FilmLevels
     solver: FilmSolver
-    given: Array
+    yardstick: Array
 
 
 def agree(
@@ -118,7 +118,7 @@ def agree(
     Raises FilmInputError, also where the oil's law does not hold at the answer, and FilmNotConverged.
     """
     problem = posed.problem
-    work = _Work(posed, across, solver or FilmSolver(problem.space), _given_thickness(problem))
+    work = _Work(posed, across, solver or FilmSolver(problem.space), _yardstick(problem))
     if start is None and problem.fluid.viscosity is not isoviscous:
         # An oil still cold or at rest may stiffen without bound under a pressure beyond the film's.
         start = agree(_unpressed(posed), across, ROUGHLY, work.solver, None)
@@ -133,7 +133,7 @@ def agree(
         image, conditions, fault = _image(work, film, profile, heat, conditions)
         change = float(np.abs(image.point - guess.point).max())
         if fault is None and change < tolerance:
-            return Coupled(film, heat, profile, guess.share, guess.opened * work.given, rounds, change)
+            return Coupled(film, heat, profile, guess.share, guess.opened * work.yardstick, rounds, change)
         guess = guess.at(history.extrapolate(guess.point, image.point))
     if fault is not None:
         raise fault
@@ -158,7 +158,9 @@ def _film(work: _Work, guess: _Guess, warm: FilmSolution | None, solved: _Guess 
     problem = work.posed.problem
     fault: InputError | FilmNotConverged | None = None
     for _ in range(MOST_HALVINGS):
-        posed = _with_growth(with_profile(problem, dowson(work.across, guess.share)), guess.opened * work.given)
+        posed = with_profile(problem, dowson(work.across, guess.share))
+        if guess.opened.any():
+            posed = replace(posed, film=widened(posed.space, posed.film, guess.opened * work.yardstick))
         try:
             return work.solver.solve(posed, warm), guess
         except (InputError, FilmNotConverged) as reason:
@@ -203,22 +205,19 @@ def with_profile(problem: FilmProblem, shape: FlowProfile) -> FilmProblem:
     return replace(problem, film=film, fluid=Fluid(_Shared(problem.fluid.viscosity, share), problem.fluid.density))
 
 
-def _with_growth(problem: FilmProblem, growth: Array) -> FilmProblem:
-    """The problem with its film grown by (vertices,) m."""
-    if not growth.any():
-        return problem
-    film, known = problem.film, problem.film.thickness_at_vertices
-    film = replace(
-        film,
-        thickness=film.thickness + problem.space.sample_vertices(growth),
-        thickness_at_vertices=None if known is None else known + growth,
-    )
-    return replace(problem, film=film)
+def _yardstick(problem: FilmProblem) -> Array:
+    """Thickness (vertices,) m of which deformation by heat is a share: the given film's.
 
-
-def _given_thickness(problem: FilmProblem) -> Array:
+    Elastic walls may overlap without their oil: then its largest magnitude, everywhere.
+    """
     known = problem.film.thickness_at_vertices
-    return problem.space.to_vertices(problem.film.thickness) if known is None else known
+    given = problem.space.to_vertices(problem.film.thickness) if known is None else known
+    if given.min() > 0.0:
+        return given
+    largest = np.abs(given).max()
+    if largest == 0.0:
+        raise FilmInputError("film thickness of a film with its temperature", "0 m everywhere", "a film somewhere")
+    return np.full_like(given, largest)
 
 
 def _first(work: _Work, start: Coupled[object] | None) -> tuple[_Conditions, _Guess]:
@@ -228,13 +227,13 @@ def _first(work: _Work, start: Coupled[object] | None) -> tuple[_Conditions, _Gu
     conditions = _Conditions(np.full((space.size, m + 2), lowest), np.zeros((space.size, m)))
     if start is None:
         growth = _growth(posed.heat, posed.problem, np.zeros((2, space.size)))
-        return conditions, _Guess(_share(posed, conditions, np.zeros(space.size)), growth / work.given)
-    if start.share.shape != (space.size, m) or len(start.growth) != len(work.given):
+        return conditions, _Guess(_share(posed, conditions, np.zeros(space.size)), growth / work.yardstick)
+    if start.share.shape != (space.size, m) or len(start.growth) != len(work.yardstick):
         expected = f"({space.size}, {m}): the same space and levels"
         raise FilmInputError("viscosity to start from", f"a start of shape {start.share.shape}", expected)
     if isinstance(start.heat, FilmTemperature) and posed.heat is not None:
         conditions = conditions._replace(temperature=start.heat.temperature)
-    return conditions, _Guess(start.share, start.growth / work.given)
+    return conditions, _Guess(start.share, start.growth / work.yardstick)
 
 
 def _heat(
@@ -258,7 +257,7 @@ def _image(
     posed = work.posed
     temperature = last.temperature if heat is None else heat.temperature
     flux = np.zeros((2, posed.problem.space.size)) if heat is None else heat.heat_flux
-    opened = _growth(posed.heat, posed.problem, flux) / work.given
+    opened = _growth(posed.heat, posed.problem, flux) / work.yardstick
     reached = _Conditions(temperature, shear_rate(film, profile))
     fault: InputError | None = None
     for halvings in range(MOST_HALVINGS):

@@ -99,16 +99,14 @@ def _parts(solution: FilmSolution) -> Array:
 def _with_walls(solution: FilmSolution) -> Array:
     """Flows with the moving and with the fixed wall (2, entries)."""
     space, reference = solution.problem.space, solution.problem.space.reference
-    from_fixed = _fixed_wall_flux(solution)
-    moving = [whole - part for whole, part in zip(solution.flux, from_fixed, strict=True)]
-    # Flow over a line of the map: that across a length of the film, times their ratio.
-    flows = [np.asarray(part * space.scale) for part in (*moving, *from_fixed)]
-    filling = solution.film_fraction * density(solution.problem, solution.pressure)[0]
+    moving, fixed = _wall_fluxes(solution)
+    # Flow over a line of the map: what crosses a length of the film, times their ratio.
+    flows = [np.asarray(part * space.scale) for part in (*moving, *fixed)]
     out = np.empty((2, len(space.pattern.indices)))
     energy_kernels.wall_flows(
         space.vertices, space.cells, space.dofs, space.pattern.slots, reference.value, reference.gradient,
         reference.geometry_gradient, reference.weights, _split(space.cells.shape[1]), *flows,
-        filling, out,
+        _filling(solution), out,
     )  # fmt: skip
     return out
 
@@ -121,11 +119,19 @@ def _shares(dragged: Array) -> Array:
     return np.stack([share, 1.0 - share])
 
 
-def _fixed_wall_flux(solution: FilmSolution) -> tuple[Array, Array]:
-    """Flow per width with the fixed wall's motion in a full film, h (1 - w) U_fixed along x and y (m2/s)."""
+def _wall_fluxes(solution: FilmSolution) -> tuple[list[Array], list[Array]]:
+    """Flow per width with either wall's motion in a full film along x and y (m2/s): of the moving one, of the fixed.
+
+    With the fixed one h (1 - w) U_fixed, with the moving one the rest.
+    """
     film = solution.film
-    x, y = (film.thickness * (1.0 - film.moving_share) * along for along in film.velocity_fixed)
-    return x, y
+    fixed = [film.thickness * (1.0 - film.moving_share) * along for along in film.velocity_fixed]
+    return [whole - part for whole, part in zip(solution.flux, fixed, strict=True)], fixed
+
+
+def _filling(solution: FilmSolution) -> Array:
+    """Oil in the film over that of a full one at reference density, (size,)."""
+    return np.asarray(solution.film_fraction * density(solution.problem, solution.pressure)[0])
 
 
 def _split(corners: int) -> Array:
@@ -157,13 +163,11 @@ def _leaving(solution: FilmSolution, profile: FlowProfile) -> Array:
     The walls' part follows their direction at the boundary; the rest is driven by pressure.
     """
     problem, space = solution.problem, solution.problem.space
-    filling = solution.film_fraction * density(problem, solution.pressure)[0]
-    from_fixed = _fixed_wall_flux(solution)
-    moving = [whole - part for whole, part in zip(solution.flux, from_fixed, strict=True)]
+    filling = _filling(solution)
     dragged = np.zeros((2, space.size))
     for name in problem.boundary:
         nodes = space.edge_dofs[name]
-        for part, along in enumerate((moving, from_fixed)):
+        for part, along in enumerate(_wall_fluxes(solution)):
             nodal = np.column_stack([space.to_unknowns(flux)[nodes] for flux in along])
             dragged[part, nodes] += filling[nodes] * np.sum(nodal * space.edge_normal[name], axis=1)
     out = np.where(open_unknowns(solution), solution.outflow, 0.0)

@@ -109,8 +109,7 @@ class FilmTemperature:
     temperature (size, m + 2) at the levels across (fixed wall first), mean (size,) over the thickness; heat_flux
     (2, size) W/m2 into the fixed and the moving wall; to_fixed, to_moving W; convected_out: by the oil through the
     boundary, against `datum` (K), the lowest given temperature; stored: in the oil that the film holds;
-    dissipation, compression: sources. least_jump (K): smaller jumps between unknowns go upwind (first order),
-    2e-5 of the range where the limiter converges soon. energy_balance_error: residual over the heat passed, or over
+    dissipation, compression: sources. energy_balance_error: residual over the heat passed, or over
     the least that counts as heat.
     """
 
@@ -125,7 +124,6 @@ class FilmTemperature:
     dissipation: float
     compression: float
     datum: float
-    least_jump: float
     energy_balance_error: float
     iterations: int
 
@@ -182,16 +180,16 @@ def solve_energy(
     terms = _terms(solution, heat, profile, before, at_once)
     matrix, right = _equations(solution, heat, profile, terms)
     guess = None if start is None else start - terms.datum
-    rise, least_jump, iterations = _sharpened(terms, matrix, right, guess, max(corrected, CORRECTED))
-    return _answer(solution, heat, profile, terms, matrix, rise, least_jump, iterations)
+    rise, iterations = _sharpened(terms, matrix, right, guess, max(corrected, CORRECTED))
+    return _answer(solution, heat, profile, terms, matrix, rise, iterations)
 
 
 def _sharpened(
     terms: _Terms, matrix: HeatMatrix, right: Array, guess: Array | None, corrected: float
-) -> tuple[Array, float, int]:
+) -> tuple[Array, int]:
     """The rise with faces of second order: upwind solves, each with the last field's correction on the right.
 
-    Also the jump of temperature below which faces are upwind: it grows where the corrections do not converge.
+    Faces of a jump of temperature below `least` are upwind: it grows where the corrections do not converge.
     """
     neighbours, flow = terms.flows.neighbours, terms.flows.flow
     graph = (neighbours.start, neighbours.neighbour, neighbours.edge, neighbours.sign, flow)
@@ -209,7 +207,7 @@ def _sharpened(
         change = float(np.abs(found - rise).max())
         if change <= corrected * spread:
             found, sweeps = solve_heat(matrix, whole, found)
-            return found, least, iterations + sweeps
+            return found, iterations + sweeps
         rise = history.extrapolate(rise, found)
     raise FilmNotConverged(
         f"film temperature not settled after {MAX_CORRECTIONS} corrections (it still changes by {change:.2g} K)",
@@ -317,7 +315,6 @@ def _answer(
     terms: _Terms,
     matrix: HeatMatrix,
     rise: Array,
-    least_jump: float,
     iterations: int,
 ) -> FilmTemperature:
     weights, flows, inner = profile.levels.weights, terms.flows, rise[:, 1:-1]
@@ -345,7 +342,6 @@ def _answer(
         dissipation=spent,
         compression=pressed,
         datum=terms.datum,
-        least_jump=least_jump,
         energy_balance_error=abs(missing) / scale if scale > 0.0 else 0.0,
         iterations=iterations,
     )

@@ -11,7 +11,8 @@ from reynolds.laws.fluid import Fluid, ViscosityLaw, isoviscous
 from reynolds.numerics.arrays import Array
 from reynolds.problem import FilmProblem
 from reynolds.solve.solver import FilmSolver
-from reynolds.solve.transient import FilmInstant, from_last_or_anew, march_with
+from reynolds.solve.transient import FilmInstant, march_with
+from reynolds.solve.warm_start import from_last_or_anew
 from reynolds.thermal.coupling import Coupled, ThermalCase, agree
 from reynolds.thermal.energy import FilmTemperature, Heat
 from reynolds.thermal.film_profile import DEFAULT_LEVELS, levels

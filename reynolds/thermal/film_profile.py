@@ -186,14 +186,3 @@ def velocity(profile: FlowProfile, thickness: Array, moving: Array, fixed: Array
         + profile.sliding * (share * moving)[:, None]
         + profile.fixed * ((1.0 - share) * fixed)[:, None]
     )
-
-
-def shear_stress(profile: FlowProfile, thickness: Array, moving: Array, fixed: Array, gradient: Array) -> Array:
-    """Shear stress mu du/dz along one direction at all levels, (size, m + 2) Pa; linear across the film.
-
-    On the moving wall (last) it is minus, on the fixed wall (first) plus the stress that the oil puts on the wall.
-    """
-    centre = 1.0 - profile.moving_share
-    drag = profile.couette_viscosity * (moving - fixed) / thickness
-    from_centre = profile.levels.place - centre[:, None]
-    return np.asarray(drag[:, None] + (thickness * gradient)[:, None] * from_centre)

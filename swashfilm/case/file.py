@@ -114,9 +114,10 @@ def _stated(top: Table, film: Table, folder: Path) -> tuple[FilmStatement | None
     space = film_space(mesh.film_mesh, degree=section.order) if mesh else None
     check_film(top, film, section, space, reading)
     boundary = read_boundaries(top, reading, mesh, section.cavitation_pressure)
-    if mesh and not reading.faulty & {"film.cavitation", "film.cavitation_pressure"}:
-        check_boundaries(top, mesh, boundary, section.cavitation, section.cavitation_pressure)
     time, oil, (roughness, contact) = read_time(top), _oil(top, film), read_roughness(top)
+    if mesh and not reading.faulty & {"film.cavitation", "film.cavitation_pressure"}:
+        times = time.output_times if time else [0.0]
+        check_boundaries(top, mesh, boundary, section.cavitation, section.cavitation_pressure, times)
     elastic = read_elastic(top, mesh.film_mesh if mesh else None, folder)
     is_sound = elastic is not None or top.get("elastic") is None
     thermal = read_thermal(top, (elastic.bodies if elastic else {}) if is_sound else None)

@@ -17,7 +17,7 @@ from swashfilm.case.axis import StudyAxis, dimension_of, listed_axis, place_word
 from swashfilm.case.file import Case, read_case
 from swashfilm.case.gap.switches import switches_of
 from swashfilm.case.settings import STEP, put, read_set, with_comments
-from system.inputs.faults import Fault, InputFaults, nearest_choice
+from system.inputs.faults import Fault, InputFaults, UnknownKey, nearest_choice
 from system.inputs.toml_table import Table, fault_lines, quoted
 from system.inputs.units import Dimension, parse_quantity
 from system.pump_file.tables import TABLES
@@ -270,7 +270,7 @@ def _case_faults(study: StudyCase) -> list[Fault]:
         except InputFaults as reason:
             found = [_at_study(fault, study) for fault in reason.faults]
             first = first or found
-            if any(fault.found == "unknown key" and fault.path.startswith(f"{study.where}.") for fault in found):
+            if any(isinstance(fault, UnknownKey) and fault.path.startswith(f"{study.where}.") for fault in found):
                 return found
             continue
         return []
@@ -282,7 +282,7 @@ def _at_study(fault: Fault, study: StudyCase) -> Fault:
     for axis in study.axes:
         if axis.key == fault.path:
             near = fault.nearest
-            if fault.found == "unknown key" and near:
+            if isinstance(fault, UnknownKey) and near:
                 near = f'"{axis.key.rpartition(".")[0]}.{near}"'
             return replace(fault, path=_named(study.where, axis.key), nearest=near)
         head, _, rest = axis.key.partition(".")
@@ -291,7 +291,7 @@ def _at_study(fault: Fault, study: StudyCase) -> Fault:
             of_pump = head in TABLES and isinstance(film, dict) and "gap" in film
             near = f"pump.{head}" if of_pump else nearest_choice(head, list(study.tables))
             nearest = f'"{near}.{rest}"' if near else ""
-            return Fault(_named(study.where, axis.key), "unknown key", fault.expected, nearest)
+            return UnknownKey(_named(study.where, axis.key), "unknown key", fault.expected, nearest)
     return fault
 
 

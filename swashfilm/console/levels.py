@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from system.inputs.faults import Fault
-from system.inputs.units import Dimension, QuantityError, parse_quantity, share_meant
+from system.inputs.units import Dimension, QuantityError, parse_quantity, parse_share
 from system.maps.plan import MapAxis, MapInput
 
 _NUMBER = re.compile(r"\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\s*")
@@ -21,8 +21,7 @@ def map_axis(option: str, text: str, given: MapInput, example: str) -> MapAxis |
     The unit of an item holds for items before it without a unit; `a..b:n` are n equally spaced levels from a to b.
     """
     try:
-        items = level_texts(text) if given.dimension else [_item(item.strip()) for item in text.split(",")]
-        values = sorted({value for item in items for value in item.levels(given.dimension)})
+        values = sorted({value for item in level_texts(text) for value in item.levels(given.dimension)})
     except QuantityError as reason:
         nearest = "" if _has_no_unit(reason.nearest, given.dimension) else reason.nearest
         return Fault(option, reason.found, f"{reason.expected}: {example}", nearest)
@@ -91,10 +90,7 @@ def _item(item: str) -> LevelText:
 def _value(text: str, dimension: Dimension | None) -> float:
     if dimension is not None:
         return parse_quantity(text.strip(), dimension)
-    try:
-        return float(text)
-    except ValueError:
-        raise QuantityError(repr(text), "bare numbers", share_meant(text)) from None
+    return parse_share(text)
 
 
 def dashed_range(text: str) -> str:

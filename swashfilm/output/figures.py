@@ -99,17 +99,11 @@ def png_of(figure: Figure) -> bytes:
     return picture.getvalue()
 
 
-def svg_of(figure: Figure) -> bytes:
-    """Return the figure as SVG with text as text.
+def _write_svg(figure: Figure, file: io.BytesIO) -> None:
+    """Write the figure as SVG with text as text.
 
     Areas are pictures inside it where they have many corners; contours stay lines up to that many each.
     """
-    picture = io.BytesIO()
-    _write_svg(figure, picture)
-    return _shortened(picture.getvalue())
-
-
-def _write_svg(figure: Figure, file: io.BytesIO) -> None:
     from matplotlib import rc_context
     from matplotlib.backends.backend_svg import FigureCanvasSVG
     from matplotlib.contour import ContourSet

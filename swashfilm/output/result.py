@@ -11,7 +11,7 @@ from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-from swashfilm.output.data.files import read_netcdf
+from swashfilm.output.data.files import RESULTS, read_netcdf
 from swashfilm.output.figures import pyplot_figures
 from swashfilm.output.headline import named
 from swashfilm.output.page import read_summary
@@ -110,7 +110,7 @@ class Result:
     @staticmethod
     def read_data(folder: Path) -> xarray.Dataset:
         """Return the data set of a run folder."""
-        return read_netcdf(folder / "results.nc")
+        return read_netcdf(folder / RESULTS)
 
     @cached_property
     def numbers(self) -> Numbers:

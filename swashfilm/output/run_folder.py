@@ -58,7 +58,7 @@ def run_folder(name: str, wanted: Path | None = None, *, workbook: bool = False)
         shutil.rmtree(partial)
         raise
     except KeyboardInterrupt:
-        if any(path.suffix != ".toml" for path in partial.iterdir()):
+        if any(_is_result(path) for path in partial.iterdir()):
             raise Interrupted(partial) from None
         shutil.rmtree(partial)
         raise Interrupted(None) from None
@@ -75,6 +75,13 @@ def run_folder(name: str, wanted: Path | None = None, *, workbook: bool = False)
             raise _disk_faults(reason, final) from None
         raise
     _give_its_name(partial, final)
+
+
+def _is_result(path: Path) -> bool:
+    """Return whether an entry of an unfinished folder is more than its input: not its schema, nor an empty folder."""
+    if path.is_dir():
+        return any(path.iterdir())
+    return path.suffix != ".toml" and not path.name.endswith(".schema.json")
 
 
 def _full(reason: OSError, partial: Path) -> bool:

@@ -27,11 +27,12 @@ class Grade(Enum):
 
 _NAMED = {
     Grade.CARE: (
-        "boundary_lubrication cavitation_below_vacuum coarse_angles coarse_mesh contact_beyond_roughness "
-        "designs_refused energy_not_balanced fidelities_differ film_hot film_not_thin "
+        "actuator_oversized boundary_lubrication cavitation_below_vacuum coarse_angles coarse_mesh "
+        "contact_beyond_roughness designs_refused energy_not_balanced fidelities_differ film_hot film_not_thin "
         "film_pressure_beyond_oil film_runs_dry motion_unstable no_3d_picture no_delivery nothing_feasible "
         "pareto_still_grows points_failed port_pressure_follows_line profile_not_resolved pumps_refused "
-        "start_outside_bounds steps_too_long table_guesses piston.radial_clearance"
+        "search_not_settled start_outside_bounds steps_too_long table_guesses operating.temperature "
+        "piston.radial_clearance"
     ),
     Grade.DESIGN: (
         "actuator_cavitates block_tips chamber_cavitates chamber_overpressure retainer_gives_way "
@@ -41,9 +42,10 @@ _NAMED = {
     ),
     Grade.MODEL: (
         "cavity_does_not_conserve_mass coefficients_beyond_file film_angles_too_few film_pressure_beyond_rigid "
-        "flow_factors_out_of_range large_error load_not_carried losses_left_out pressure_below_cavitation "
-        "results_thinned shares_uncertain start_refused table_error temperature_not_solved values_scaled "
-        "viscosity_without_pressure weakly_active_cavity operating.inlet_pressure operating.pressure operating.speed "
+        "flow_factors_out_of_range friction_at_low_speed large_error load_not_carried losses_left_out "
+        "pressure_below_cavitation results_thinned shares_uncertain start_refused table_error temperature_not_solved "
+        "values_scaled viscosity_without_pressure weakly_active_cavity "
+        "operating.inlet_pressure operating.pressure operating.speed "
         "slipper.groove_file slipper.orifice_file slipper.pocket_file valve_plate.kidney_file "
         "valve_plate.sphere_radius"
     ),
@@ -53,6 +55,12 @@ GRADES: Mapping[str, Grade] = {name: grade for grade, names in _NAMED.items() fo
 
 A key that is not listed needs care: a doubtful value is most often a unit mistaken.
 """
+_TITLES = {
+    "operating.pressure": "Above the rated pressure",
+    "operating.speed": "Above the rated speed",
+    "operating.temperature": "Viscosity of the oil",
+}
+"""Titles of warnings about an operating point, whose key alone would not tell what is doubtful."""
 _NAME = re.compile(r"(?P<name>[a-z][\w.]*): (?P<text>.*)", re.DOTALL)
 _SINGLE = re.compile(r"\.\d+(?=\.|$)")
 UNNAMED = "other"
@@ -70,7 +78,8 @@ class Cause:
     @property
     def title(self) -> str:
         """Name in words, with the number of warnings where there are several."""
-        words = self.name if "." in self.name else self.name.replace("_", " ").capitalize()
+        plain = self.name if "." in self.name else self.name.replace("_", " ").capitalize()
+        words = _TITLES.get(self.name, plain)
         return words if len(self.texts) == 1 else f"{words}, {len(self.texts)} times"
 
 

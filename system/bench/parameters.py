@@ -10,7 +10,7 @@ import numpy as np
 from system.description.drawing import drawn_sigmas
 from system.description.gap import Gap
 from system.description.pump import FrictionSection, OilSection, PumpDescription
-from system.description.tolerances import Tolerances
+from system.description.tolerances import BOUNDS, FARTHEST, Tolerances
 from system.estimation.parameters import Parameter, Role, Scale
 from system.inputs.units import Dimension
 from system.pump.laws.kinematics import stroke, swash_angle_for_stroke
@@ -75,8 +75,14 @@ def base_parameters(pump: PumpDescription, tolerances: Tolerances) -> tuple[Para
         *_frictions(pump, tolerances),
         _absolute("displacement", 1.0, tolerances.displacement, 0.5, 1.5),
         replace(_relative("dead_volume", pump.pump.dead_volume, tolerances.dead_volume, Dimension.VOLUME), power=1.0),
-        _relative("flow_coefficient", pump.ports.flow_coefficient, tolerances.flow_coefficient, None, upper=1.0),
-        _absolute("stand_out_share", _share(pump), tolerances.stand_out_share, 0.0, 1.2),
+        _relative(
+            "flow_coefficient",
+            pump.ports.flow_coefficient,
+            tolerances.flow_coefficient,
+            None,
+            upper=BOUNDS["flow_coefficient"][1],
+        ),
+        _absolute("stand_out_share", _share(pump), tolerances.stand_out_share, *BOUNDS["stand_out_share"]),
         *_warmth(tolerances),
     )
     return tuple(_by_drawing(one, sigmas.get(FILE_KEYS.get(one.name, ""))) for one in whole)
@@ -186,16 +192,16 @@ def _frictions(pump: PumpDescription, tolerances: Tolerances) -> tuple[Parameter
 def _relative(
     name: str, centre: float, spread: float, dimension: Dimension | None, role: Role = Role.BASE, upper: float = inf
 ) -> Parameter:
-    """One of unit logarithm's spread, between a tenth and ten times its centre."""
-    return Parameter(
-        name, role, Scale.LOG, centre, spread, 0.1 * centre, min(10.0 * centre, upper), dimension, "[tolerance]"
-    )
+    """One whose logarithm has the spread, at most FARTHEST times and at least 1/FARTHEST of its centre."""
+    lower, most = centre / FARTHEST, min(FARTHEST * centre, upper)
+    return Parameter(name, role, Scale.LOG, centre, spread, lower, most, dimension, "[tolerance]")
 
 
 def _eccentricity(centre: float, spread: float) -> Parameter:
-    """Leakage grows with its square, so that a linear scale would end where the slope vanishes."""
-    scale, lower = (Scale.SQUARE, CONCENTRIC) if centre > CONCENTRIC else (Scale.NORMAL, 0.0)
-    return Parameter("eccentricity_ratio", Role.BASE, scale, centre, spread, lower, 0.95, None, "[tolerance]")
+    """Leakage grows with its square, so that a scale of its own would end where that has no slope."""
+    least, most = BOUNDS["eccentricity_ratio"]
+    scale, lower = (Scale.SQUARE, CONCENTRIC) if centre > CONCENTRIC else (Scale.NORMAL, least)
+    return Parameter("eccentricity_ratio", Role.BASE, scale, centre, spread, lower, most, None, "[tolerance]")
 
 
 def _absolute(name: str, centre: float, spread: float, lower: float, upper: float) -> Parameter:

@@ -13,6 +13,7 @@ from system.description.drawn import DEVIATION, SIGMAS, Drawing, Drawn, DrawnFit
 from system.description.keys import PumpKey, pump_keys, unknown_key
 from system.description.pump import PumpDescription
 from system.description.tolerance import DrawnSection, FitSection, Shape
+from system.description.tolerances import BOUNDS, FARTHEST
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 from system.inputs.units import Dimension, QuantityError, parse_quantity
 
@@ -79,20 +80,23 @@ def drawn_sigmas(pump: PumpDescription) -> dict[str, float]:
 
 
 def _by_sigma(pump: PumpDescription, known: Mapping[str, PumpKey]) -> Iterator[Drawn]:
-    """Yield the dimensions of the sigmas that [tolerance] states, normal about the stated value."""
+    """Yield the dimensions of the sigmas that [tolerance] states, within the bounds that a fit keeps them in.
+
+    A relative sigma is that of the logarithm, so that a positive value stays positive; an absolute one is normal.
+    """
     part = pump.tolerance
     for key, paths in _RELATIVE.items():
         share = getattr(part, key)
         for path in paths if share is not None else ():
             if path in known and known[path].value > 0.0:
-                yield _normal(path, (path,), known[path].value, share * known[path].value)
+                yield _relative((path,), known[path].value, share, BOUNDS.get(key, (0.0, math.inf))[1])
     for key, path in _ABSOLUTE.items():
         sigma = getattr(part, key)
         if sigma is not None and path in known:
-            yield _normal(path, (path,), known[path].value, sigma)
+            least, most = BOUNDS[key]
+            yield replace(_normal(path, (path,), known[path].value, sigma), least=least, most=most)
     if part.viscosity is not None:
-        first = known[_VISCOSITIES[0]].value
-        yield _normal(_VISCOSITIES[0], _VISCOSITIES, first, part.viscosity * first)
+        yield _relative(_VISCOSITIES, known[_VISCOSITIES[0]].value, part.viscosity)
     if part.displacement is not None:  # stroke goes with the tangent of the angle
         angle = pump.pump.swash_angle_max
         path = "pump.swash_angle_max"
@@ -102,6 +106,12 @@ def _by_sigma(pump: PumpDescription, known: Mapping[str, PumpKey]) -> Iterator[D
 def _unused(pump: PumpDescription) -> tuple[str, ...]:
     kept = ("viscosity_slope", "inlet_share")
     return tuple(f"tolerance.{key}" for key in kept if getattr(pump.tolerance, key) is not None)
+
+
+def _relative(keys: tuple[str, ...], middle: float, share: float, most: float = math.inf) -> Drawn:
+    """Return a log-normal dimension of a relative sigma about its median."""
+    least, most = middle / FARTHEST, min(FARTHEST * middle, most)
+    return replace(_normal(keys[0], keys, middle, share * middle), least=least, most=most, logarithmic=True)
 
 
 def _normal(name: str, keys: tuple[str, ...], middle: float, sigma: float) -> Drawn:

@@ -23,7 +23,8 @@ class Drawn:
     """A dimension with its distribution: middle and standard deviation, SI; limits of a bounded shape.
 
     name: its path; keys: that, and those that scatter in proportion to it. peak: the likeliest value of a triangle.
-    parts: of a pump, each of its own size; the distribution is that of one.
+    parts: of a pump, each of its own size; the distribution is that of one. logarithmic: of a normal dimension the
+    logarithm scatters, by sigma over middle, and the middle is the median; least and most then cut the distribution.
     """
 
     name: str
@@ -35,7 +36,13 @@ class Drawn:
     most: float = math.inf
     peak: float = math.nan
     parts: int = 1
+    logarithmic: bool = False
     scores: ClassVar[int] = 1
+
+    @property
+    def law(self) -> str:
+        """Name of the distribution."""
+        return "log-normal" if self.logarithmic else self.shape.value
 
 
 @dataclass(frozen=True)
@@ -49,6 +56,11 @@ class DrawnFit:
     classes: int
     parts: int = 1
     scores: ClassVar[int] = 2
+
+    @property
+    def law(self) -> str:
+        """Name of either diameter's distribution."""
+        return self.shape.value
 
     @property
     def keys(self) -> tuple[str, ...]:

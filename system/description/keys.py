@@ -7,7 +7,7 @@ from dataclasses import dataclass, is_dataclass, replace
 from typing import Any
 
 from system.description.pump import PumpDescription
-from system.inputs.faults import Fault, nearest_choice
+from system.inputs.faults import Fault, InputFaults, nearest_choice
 from system.inputs.sections.fields import FieldType, fields_of
 from system.inputs.sections.values import broken_limit
 from system.inputs.units import Dimension, format_quantity
@@ -71,14 +71,24 @@ def _keys_in(path: str, section: Any) -> Iterator[PumpKey]:
 def with_values(pump: PumpDescription, values: Mapping[str, float]) -> PumpDescription:
     """Return the pump with other values (SI) of some of its `pump_keys`, its stated displacement left to follow.
 
-    Limits of single values hold; `system.pump_file.file.check_pump` checks those of the geometry. Raises ValueError,
-    and InputError, for a value that no such key has.
+    Limits of single values hold; `system.pump_file.file.check_pump` knows those of the geometry. Raises InputFaults
+    with every value that no such key has.
     """
+    if faults := [*_value_faults(pump, values)]:
+        raise InputFaults(pump.name, faults)
     changed: Any = replace(pump, pump=replace(pump.pump, displacement=None))
     for path, value in values.items():
         changed = _with_value(changed, path.split("."), float(value))
     made: PumpDescription = changed
     return made
+
+
+def _value_faults(pump: PumpDescription, values: Mapping[str, float]) -> Iterator[Fault]:
+    """Yield the fault of each value beyond the limits of its key."""
+    known = pump_keys(pump)
+    for path, value in values.items():
+        if limit := broken_limit(known[path].field, value):
+            yield Fault(path, known[path].shown(value), limit)
 
 
 def key_value(pump: PumpDescription, path: str) -> float:
@@ -110,8 +120,6 @@ def _with_value(item: Any, path: list[str], value: float) -> Any:
         return (*item[:at], _with_value(item[at], rest, value), *item[at + 1 :])
     if rest:
         return replace(item, **{name: _with_value(getattr(item, name), rest, value)})
-    if limit := broken_limit(fields_of(type(item))[name], value):
-        raise ValueError(f"{name} = {value:.5g} (SI), expected {limit}")
     return replace(item, **{name: value})
 
 

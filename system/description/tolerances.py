@@ -1,14 +1,26 @@
 """Tolerances of a pump before any measurement: one sigma of each uncertain parameter."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, fields
 
 from system.description.assumptions import Assumption
 from system.description.pump import PumpDescription
 
+FARTHEST = 10.0
+"""A value with a relative sigma lies between a tenth and ten times the stated one."""
+BOUNDS: Mapping[str, tuple[float, float]] = {
+    "flow_coefficient": (0.0, 1.0),
+    "eccentricity_ratio": (0.0, 0.95),
+    "stand_out_share": (0.0, 1.2),
+}
+"""Least and largest value of a parameter that no pump has beyond them, by its key of [tolerance]."""
+
 
 @dataclass(frozen=True)
 class Tolerances:
     """One sigma of a pump's parameters, relative to the stated value unless said otherwise.
+
+    A relative one is that of the logarithm, since the value is positive.
 
     film_thickness: each gap's; eccentricity_ratio: absolute; viscosity_slope in 1/K: of the logarithm of viscosity
     over temperature, about 50 degC; friction, guide_friction, bearing_friction: coefficients of the pairs, of ball

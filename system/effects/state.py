@@ -10,7 +10,8 @@ from reynolds.numerics.arrays import Array
 from system.description.gap import Gap
 from system.effects.effect import BenchState, Effects, GapCourse, Value, neutral
 from system.inputs.units import STANDARD_ATMOSPHERE, TURN
-from system.pump.laws.kinematics import crossed_drive, stroke
+from system.pump.laws.kinematics import displacement, stroke
+from system.pump.lumped import full_drive, piston_area
 
 GAPS = tuple(Gap)
 """The gaps in the order of the first axis of `Effects.conductance`."""
@@ -41,15 +42,9 @@ def unchanged(courses: Mapping[Gap, GapCourse]) -> Effects:
     return neutral(*shape)
 
 
-def piston_area(state: BenchState[Value]) -> float:
-    """Cross section of a piston in m2."""
-    return float(np.pi / 4.0 * state.geometry.pump.piston_diameter**2)
-
-
 def full_stroke(state: BenchState[Value]) -> float:
     """Stroke in m at the largest swash angle."""
-    part = state.geometry.pump
-    return stroke(crossed_drive(part.pitch_radius, part.bore_cone_angle, part.swash_angle_max, part.cross_angle or 0.0))
+    return stroke(full_drive(state.geometry))
 
 
 def swash_tangent(state: BenchState) -> Array:
@@ -59,7 +54,8 @@ def swash_tangent(state: BenchState) -> Array:
 
 def displaced(state: BenchState[Value]) -> Value:
     """Volume (N,) m3 that all pistons displace in a turn."""
-    return state.geometry.pump.pistons * piston_area(state) * full_stroke(state) * state.displacement_ratio
+    pump = state.geometry
+    return displacement(pump.pump.pistons, piston_area(pump), full_stroke(state)) * state.displacement_ratio
 
 
 def ideal_flow(state: BenchState[Value]) -> Value:
@@ -70,7 +66,7 @@ def ideal_flow(state: BenchState[Value]) -> Value:
 def dead_volume(state: BenchState) -> Array:
     """Volume (N,) m3 of all chambers together at inner dead centre: it grows as the stroke is reduced."""
     part = state.geometry.pump
-    back = piston_area(state) * full_stroke(state) * (1.0 - state.displacement_ratio) / 2.0
+    back = piston_area(state.geometry) * full_stroke(state) * (1.0 - state.displacement_ratio) / 2.0
     return np.asarray(part.pistons * (part.dead_volume + back))
 
 

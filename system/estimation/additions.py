@@ -38,13 +38,15 @@ class Addition:
 class Rung:
     """Additions to a model: the fit without them, those that were fitted, the best first, and the failures as text.
 
-    dropped: of a ladder, the names of earlier additions that are not needed with the best.
+    dropped: of a ladder, the names of earlier additions that are not needed beside the best; unfitted: as text, those
+    that stay because the model without them could not be fitted.
     """
 
     before: Posterior
     tried: tuple[Addition, ...]
     failed: tuple[str, ...]
     dropped: tuple[str, ...] = ()
+    unfitted: tuple[str, ...] = ()
 
     @property
     def taken(self) -> Addition | None:
@@ -150,8 +152,9 @@ def ladder(
             rungs.append(rung)
             break
         grown = replace(model, names=(*model.names, rung.taken.name), fit=rung.taken.fit)
-        model = _without_idle(grown, observations, limits)
-        rungs.append(replace(rung, dropped=tuple(name for name in grown.names if name not in model.names)))
+        model, unfitted = _without_idle(grown, observations, limits)
+        dropped = tuple(name for name in grown.names if name not in model.names)
+        rungs.append(replace(rung, dropped=dropped, unfitted=unfitted))
     return Ladder(tuple(rungs), model.names, model.fit)
 
 
@@ -176,11 +179,12 @@ class _Model:
         return {name: own for name, own in self.possible.items() if name not in self.names}
 
 
-def _without_idle(model: _Model, observations: Observations, limits: FitLimits) -> _Model:
+def _without_idle(model: _Model, observations: Observations, limits: FitLimits) -> tuple[_Model, tuple[str, ...]]:
     """A model without those additions, the last one apart, that gain less than `WORTH` nats beside the others.
 
-    An addition without which the model cannot be fitted stays.
+    An addition without which the model cannot be fitted stays: these as text, with the reason.
     """
+    unfitted: list[str] = []
     for name in model.names[:-1]:
         fewer = replace(model, names=tuple(one for one in model.names if one != name))
         simulator = fewer.simulator
@@ -188,11 +192,12 @@ def _without_idle(model: _Model, observations: Observations, limits: FitLimits) 
         start = np.array([known[one.name] for one in simulator.parameters])
         try:
             fit = maximum_posterior(simulator, observations, start, limits)
-        except NotConverged:
+        except NotConverged as reason:
+            unfitted.append(f"{name}: {reason}")
             continue
         if model.fit.log_evidence - fit.log_evidence < WORTH:
             return _without_idle(replace(fewer, fit=fit), observations, limits)
-    return model
+    return model, tuple(unfitted)
 
 
 def _starts(without: Posterior, fresh: Sequence[Parameter]) -> list[Array]:

@@ -64,10 +64,11 @@ def no_rubbing(count: int) -> Rubbing:
 class GroupInstant:
     """One piston with its slipper at a shaft angle.
 
-    forces at the joint; ball_moment (3,) N m of its friction on the slipper; joint_loss W, its power; pressed (2,) N m:
-    int p (x, y) dA required of the slipper's film; held N, force of the spring on the slipper besides `forces.lift`;
-    inertia (2, 3) N of piston and slipper, -m a; plate (3,) N of the swash plate on the slipper; places (3, 3) m of
-    both centres of mass and of the plate's force.
+    forces at the joint; ball_moment (3,) N m of its friction on the slipper; joint_loss W, what that takes;
+    pressed (2,) N m: int p (x, y) dA that the slipper's film must give; held N, force of the spring on the slipper
+    besides `forces.lift`; inertia (2, 3) N of piston and slipper, -m a; plate (3,) N of the swash plate on the
+    slipper; places (3, 3) m of both centres of mass and of the middle of the slipper's face; couple (3,) N m of the
+    plate's force about that middle, finite where its lift passes through zero.
     """
 
     forces: BallForces
@@ -78,6 +79,7 @@ class GroupInstant:
     inertia: Array
     plate: Array
     places: Array
+    couple: Array
 
 
 def group_instant(
@@ -112,7 +114,7 @@ def group_instant(
     )
     held = _spring_share(rotor, parts)
     lift = forces.lift + held
-    face = ball + parts.slipper.ball_height * normal + (pressed / lift) @ plate[:2]
+    face = ball + parts.slipper.ball_height * normal
     return GroupInstant(
         forces=forces,
         ball_moment=moment,
@@ -122,6 +124,7 @@ def group_instant(
         inertia=-np.stack([pump.piston.mass * piston_rate, pump.slipper.mass * slipper_rate]),
         plate=friction @ plate[:2] - lift * normal,
         places=np.stack([piston_place, ball + pump.slipper.centre_of_mass_to_ball * normal, face]),
+        couple=np.cross(pressed @ plate[:2], -normal),
     )
 
 
@@ -243,7 +246,12 @@ def block_drive(
     point, pistons = rotor.point, rotor.pump.pump.pistons
     step, height = len(angles) // pistons, parts.block.spline_height
     by_chamber = [
-        np.array([wrench_about(at.places, np.vstack([at.inertia, at.plate]), height) for at in group])
+        np.array(
+            [
+                wrench_about(at.places, np.vstack([at.inertia, at.plate]), height) + np.array([0.0, *at.couple[:2]])
+                for at in group
+            ]
+        )
         for group in groups
     ]
     press = sum(np.roll(by_chamber[k % len(groups)], -k * step, axis=0) for k in range(pistons))

@@ -23,6 +23,21 @@ class Fault:
     expected: str
     nearest: str = ""
 
+    @property
+    def line(self) -> str:
+        """Where, what was found and what was expected, in a line."""
+        return f"{self.path}: {self.found}, expected {self.expected}"
+
+
+@dataclass(frozen=True)
+class UnknownKey(Fault):
+    """A key that its table does not have."""
+
+    @classmethod
+    def among(cls, path: str, key: str, known: Sequence[str]) -> UnknownKey:
+        """The fault of a key at a path of the file, with those that the table has and the nearest of them."""
+        return cls(path, "unknown key", f"one of {', '.join(known)}", nearest_choice(key, known))
+
 
 class InputFaults(Exception):
     """All faults of one input at once. `source` is the file, the built-in name or the command line.

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from reynolds.numerics.files import read_text
-from system.inputs.faults import Fault, InputFaults, key_lines, nearest_choice, nearest_path, stated
+from system.inputs.faults import Fault, InputFaults, UnknownKey, key_lines, nearest_choice, nearest_path, stated
 from system.inputs.units import with_point
 
 Choice = TypeVar("Choice", bound=Enum)
@@ -155,4 +155,4 @@ class Table:
         """Add a fault for every key that was not requested, with the nearest known one."""
         for key in self.values:
             if key not in self.asked:
-                self.fault(key, "unknown key", f"one of {', '.join(self.asked)}", nearest_choice(key, self.asked))
+                self.faults.append(UnknownKey.among(self.name(key), key, self.asked))

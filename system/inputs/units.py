@@ -7,16 +7,12 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import Enum
 from fractions import Fraction
-from functools import cache
-from typing import TYPE_CHECKING
 
 from system.inputs.faults import nearest_choice
-
-if TYPE_CHECKING:
-    import pint
+from system.inputs.unit_text import Unit, unit_of_text
 
 STANDARD_ATMOSPHERE = 101325.0  # Pa; gauge pressure = absolute pressure - this
 
@@ -27,18 +23,10 @@ LPM = 6e4  # L/min in a m3/s
 LARGEST = Fraction(10) ** 30  # in SI; with its inverse the range of sizes of machines
 
 
+ZERO_DIGITS = 9
+"""Decimals of a number in a unit with a zero of its own, degC, that a float in K still holds."""
 MOST_DIGITS = 60
 """Most characters of a number in a text; more are no number of a machine."""
-
-
-@dataclass(frozen=True)
-class _Unit:
-    """A unit: value in base units (m, kg, s, K, rad) = factor * number + offset, exactly."""
-
-    factor: Fraction
-    offset: Fraction
-    dimensionality: frozenset[tuple[str, object]]
-    counts_angle: bool
 
 
 class Dimension(Enum):
@@ -118,30 +106,33 @@ class QuantityError(ValueError):
 
 _HABITS = {
     Dimension.TEMPERATURE: {"C": "degC", "c": "degC", "F": "degF", "deg": "degC"},
-    Dimension.ANGULAR_SPEED: {"U/min": "rpm", "upm": "rpm", "UpM": "rpm", "1/min": "rpm", "min-1": "rpm"},
     Dimension.DISPLACEMENT: {"ccm": "cm3/rev", "ccm/U": "cm3/rev", "cm3/U": "cm3/rev"},
     Dimension.VOLUME_FLOW: {"l/m": "L/min", "LPM": "L/min", "l": "L/min"},
 }
 """Wrong units that benches write, each with the unit that is meant."""
+_TRADE = {
+    Dimension.ANGULAR_SPEED: {
+        **dict.fromkeys(("1/min", "min-1", "min^-1", "U/min", "upm", "UpM"), "r/min"), "Hz": "r/s", "kHz": "kr/s",
+    },
+}  # fmt: skip
+"""Units that catalogues write of a quantity and that mean another elsewhere, each by its full name: turns counted."""
 _QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*(.*?)\s*")
+_ABSOLUTE = re.compile(r"(bar|mbar|hPa|kPa|MPa|Pa|psi)\s*(?:a|\(a\)|\(?abs\.?\)?|absolute)", re.IGNORECASE)
+"""Units of pressure with a word for absolute."""
 _COMMA = re.compile(r"\s*([+-]?\d+),(\d+)(\s*[^\s,.\d].*|)")
 _PERCENT = re.compile(r"\s*(\d+\.?\d*)\s*%\s*")
-_ANGLE_WORDS = ("radian", "turn", "revolution", "arcminute", "arcsecond", "grade")
-_POWER = re.compile(r"(?<=[A-Za-zµμ])(?:\^|\*\*)?(-?\d)")
-_FACTOR = r"[A-Za-zµμ°]+[A-Za-z]*(?:(?:\^|\*\*)?-?\d|[²³])?"
-_PRODUCT = rf"{_FACTOR}(?:\s*[*·. ]\s*{_FACTOR})*"
-_UNIT_TEXT = re.compile(rf"(?:1(?=\s*/)|{_PRODUCT})(?:\s*/\s*(?:{_FACTOR}|\(\s*{_PRODUCT}\s*\)))*")
 
 
 def parse_quantity(text: object, dimension: Dimension, *, difference: bool = False, example: str = "") -> float:
     """Return the SI value of a text such as "22 mm", rounded once: "15 um" is 1.5e-05 to the last bit.
 
-    rpm, r/min, cm3, cm^3, cc/rev, mL/r, lpm, um, degC, cSt, mPa s and the units of pint are understood. Raises
-    QuantityError for a bare number, a number that cannot be read, an unknown unit and a unit that measures something
-    else; a turn or an angle is never assumed ("90 cm3" is no displacement per revolution and "35 Hz" no rotational
-    speed). A size below 1e-30 or, by its kind, above that of any machine is refused. Of a `difference` the unit's zero
-    does not count: "0.3 degC" is 0.3 K. `example`: a usual value, whose unit a bare number may mean; left out: that of
-    the dimension.
+    rpm, r/min, cm3, cm^3, cc/rev, mL/r, lpm, um, degC, cSt, mPa s and what pint knows are understood.
+    Raises QuantityError for a bare number, a number that cannot be read, an unknown unit and a unit that
+    measures something else; a turn or an angle is never left to be guessed ("90 cm3" is no displacement
+    per revolution). Of a rotational speed 1/min and Hz count turns. A size below 1e-30 or, by its kind,
+    above that of any machine is refused.
+    Of a `difference` the unit's zero does not count: "0.3 degC" is 0.3 K. `example`: a usual value, whose unit a
+    bare number may mean; left out: that of the dimension.
     """
     example = example or dimension.example
     expected = f"{dimension.noun} with its unit, such as '{example}'"
@@ -154,8 +145,10 @@ def parse_quantity(text: object, dimension: Dimension, *, difference: bool = Fal
         raise QuantityError(_shown(text), expected)
     number, unit_text = match[1], match[2]
     if not unit_text:
-        raise QuantityError(_shown(text), expected, f"'{number.removesuffix('.0')} {unit_in(example)}'")
-    unit = _unit(unit_text)
+        raise QuantityError(_shown(text), expected, f"'{_with_unit(number, dimension, example)}'")
+    if gauge := _gauge_meant(number, unit_text, dimension):
+        raise QuantityError(f"{_shown(text)}, an absolute pressure", f"{expected}, gauge", gauge)
+    unit = _unit_for(unit_text, dimension)
     if unit is None or not _measures(unit, dimension):
         meant = _meant(unit_text, dimension)
         why = "a unit that is not known" if unit is None else f"which is not {dimension.noun}"
@@ -182,7 +175,9 @@ def format_quantity(value: float, dimension: Dimension, digits: int | None = Non
     name = reading_unit(value, dimension)
     shown = in_unit(value, name, dimension)
     if digits is not None:
-        return f"{_rounded(shown, digits)} {name}"
+        # 0 degC is 273.15 K, which no float is: what is left of it is no temperature
+        significant = round(shown, ZERO_DIGITS) + 0.0 if _unit_of(name).offset else shown
+        return f"{_rounded(significant, digits)} {name}"
     for precision in range(1, 18):
         number = _rounded(shown, precision)
         if float(_in_si(number, _unit_of(name), dimension)) == value:
@@ -190,10 +185,13 @@ def format_quantity(value: float, dimension: Dimension, digits: int | None = Non
     return f"{value!r} {dimension.si_unit}"
 
 
-def share_meant(text: str) -> str:
-    """Return the probable meaning of a text that is no bare number: 80% is 0.8, 0,8 is 0.8; else an empty string."""
+def parse_share(text: str) -> float:
+    """Return the value of a share, "0.8" or "80%"; raise QuantityError for another text."""
     percent = _PERCENT.fullmatch(text)
-    return f"{float(percent[1]) / 100.0:g}" if percent else with_point(text)
+    try:
+        return float(Fraction(percent[1]) / 100) if percent else float(text)
+    except ValueError:
+        raise QuantityError(repr(text), "a bare number or one in %", with_point(text)) from None
 
 
 def with_point(text: str) -> str:
@@ -219,47 +217,12 @@ def to_absolute(gauge_pressure: float) -> float:
     return gauge_pressure + STANDARD_ATMOSPHERE
 
 
-@cache
-def _registry() -> pint.UnitRegistry:
-    """Return the one registry; its numbers are fractions, so that a unit adds no rounding of its own."""
-    import pint
-
-    registry: pint.UnitRegistry = pint.UnitRegistry(non_int_type=Fraction, on_redefinition="ignore")
-    registry.define("@alias turn = rev = r")
-    registry.define("lpm = liter / minute")
-    registry.define("Nm = newton * meter")  # pint reads a count of textile yarn here
-    return registry
-
-
-@cache
-def _unit(text: str) -> _Unit | None:
-    """Return the unit of a text, or None for an unknown one."""
-    import pint
-
-    if _UNIT_TEXT.fullmatch(text) is None:
-        return None
-    registry = _registry()
-    try:
-        unit = registry.Unit(_POWER.sub(r"**\1", text.replace(".", "*")))
-        origin = registry.Quantity(Fraction(0), unit).to_base_units().magnitude
-        first = registry.Quantity(Fraction(1), unit).to_base_units().magnitude
-    except (pint.PintError, TypeError):  # TypeError: a logarithmic unit, such as dB
-        return None
-    names = [name for name, _ in registry.Quantity(1, unit).unit_items()]
-    return _Unit(
-        factor=Fraction(first) - Fraction(origin),
-        offset=Fraction(origin),
-        dimensionality=frozenset(unit.dimensionality.items()),
-        counts_angle="degree" in names or any(word in name for name in names for word in _ANGLE_WORDS),
-    )
-
-
 def unit_scale(name: str, dimension: Dimension) -> tuple[float, float]:
     """Return (factor, offset) with SI value = factor * number of the unit + offset.
 
     Raises QuantityError for a unit that is not known or measures something else.
     """
-    unit = _unit(name)
+    unit = _unit_for(name, dimension)
     if unit is None or not _measures(unit, dimension):
         meant = _meant(name, dimension)
         why = "a unit that is not known" if unit is None else f"which is not of {dimension.noun}"
@@ -269,31 +232,63 @@ def unit_scale(name: str, dimension: Dimension) -> tuple[float, float]:
     return float(unit.factor / si.factor), float(unit.offset / si.factor)
 
 
+def _unit_for(text: str, dimension: Dimension) -> Unit | None:
+    """Return what a unit text means of a quantity, or None when it is not known."""
+    return unit_of_text(_TRADE.get(dimension, {}).get(text, text))
+
+
+def _with_unit(number: str, dimension: Dimension, example: str) -> str:
+    """Return a number with the unit that it may lack: the one in which it is nearest to the usual value, `example`."""
+    usual, shown = parse_quantity(example, dimension), number.removesuffix(".0")
+
+    def away(unit: str) -> float:
+        value = float(_in_si(number, _unit_of(unit), dimension))
+        return abs(math.log(value / usual)) if value > 0.0 < usual else 0.0
+
+    return f"{shown} {min((unit_in(example), *dimension.reading_units), key=away)}"
+
+
+def _gauge_meant(number: str, unit_text: str, dimension: Dimension) -> str:
+    """Return the gauge pressure of an absolute one, such as 1 bara, as a remedy; empty for other texts."""
+    match = _ABSOLUTE.fullmatch(unit_text)
+    if dimension is not Dimension.PRESSURE or match is None:
+        return ""
+    gauge = in_unit(to_gauge(float(_in_si(number, _unit_of(match[1]), dimension))), match[1], dimension)
+    return f"'{gauge:.6g} {match[1]}', which is {STANDARD_ATMOSPHERE / 1e5:g} bar less"
+
+
+def without_absolute(text: object) -> object:
+    """Return a pressure that is known to be absolute without the word for it: "1 bar" of "1 bar abs" or "1 bara"."""
+    match = _QUANTITY.fullmatch(text) if isinstance(text, str) else None
+    unit = _ABSOLUTE.fullmatch(match[2]) if match else None
+    return f"{match[1]} {unit[1]}" if match and unit else text
+
+
 def _meant(unit_text: str, dimension: Dimension) -> str:
     """The unit that a bench means by a text, the text in small letters where that is one, or the one spelt most like
     it; else empty."""
     if known := _HABITS.get(dimension, {}).get(unit_text, ""):
         return known
     lowered = unit_text.lower()
-    unit = None if lowered == unit_text else _unit(lowered)
+    unit = None if lowered == unit_text else unit_of_text(lowered)
     if unit is not None and _measures(unit, dimension):
         return lowered
     return nearest_choice(unit_text, (*dimension.reading_units, unit_in(dimension.example)))
 
 
-def _in_si(number: str, unit: _Unit, dimension: Dimension) -> Fraction:
+def _in_si(number: str, unit: Unit, dimension: Dimension) -> Fraction:
     """Return a decimal number of a unit in the SI unit of the dimension, without rounding."""
     return (Fraction(number) * unit.factor + unit.offset) / _unit_of(dimension.si_unit).factor
 
 
-def _measures(unit: _Unit, dimension: Dimension) -> bool:
+def _measures(unit: Unit, dimension: Dimension) -> bool:
     """True when a unit is one of the dimension; angles count, which are one in the SI."""
     si = _unit_of(dimension.si_unit)
     return unit.dimensionality == si.dimensionality and unit.counts_angle == si.counts_angle
 
 
-def _unit_of(text: str) -> _Unit:
-    unit = _unit(text)
+def _unit_of(text: str) -> Unit:
+    unit = unit_of_text(text)
     if unit is None:
         raise ValueError(f"{text!r} is no unit")
     return unit
@@ -301,7 +296,7 @@ def _unit_of(text: str) -> _Unit:
 
 def in_unit(value: float, name: str, dimension: Dimension) -> float:
     """Return an SI value of the dimension in the unit `name`."""
-    unit = _unit_of(name)
+    unit = _unit_of(_TRADE.get(dimension, {}).get(name, name))
     return float((Fraction(value) * _unit_of(dimension.si_unit).factor - unit.offset) / unit.factor)
 
 

@@ -10,6 +10,7 @@ from system.inputs.faults import Fault, InputFaults
 from system.maps.data import LOSSES, MapData, objects
 from system.maps.interpolation import MapError, MapInterpolant, inside
 from system.maps.plan import MapAxis, MapInput
+from system.maps.specific import of_two_sizes, specific_numbers
 from system.pump.efficiency import EfficiencyDefinition
 from system.work.tasks import PartStatus
 
@@ -68,11 +69,12 @@ class Difference:
 
 @dataclass(frozen=True)
 class MapComparison:
-    """Two maps at the same levels, and their differences."""
+    """Two maps at the same levels, and their differences; specific: those free of size, of pumps of two sizes."""
 
     one: MapData
     other: MapData
     differences: tuple[Difference, ...]
+    specific: tuple[Difference, ...]
 
 
 def compare(one: MapData, other: MapData, errors: tuple[MapError | None, MapError | None]) -> MapComparison:
@@ -84,7 +86,9 @@ def compare(one: MapData, other: MapData, errors: tuple[MapError | None, MapErro
     exact = axes == one.axes == other.axes
     here, there = (at_levels(MapInterpolant(data), axes) for data in (one, other))
     known = [] if exact else [error for error in errors if error is not None]
-    return MapComparison(here, there, tuple(_differences(here, there, known)))
+    rows = specific_numbers(here, there, known) if of_two_sizes(here, there) else ()
+    specific = tuple(_difference(words, unit, here, *pair, error) for words, unit, pair, error in rows)
+    return MapComparison(here, there, tuple(_differences(here, there, known)), specific)
 
 
 def common_axes(one: Sequence[MapAxis], other: Sequence[MapAxis]) -> tuple[MapAxis, ...]:
@@ -129,7 +133,8 @@ def at_levels(interpolant: MapInterpolant, axes: tuple[MapAxis, ...]) -> MapData
 def _differences(one: MapData, other: MapData, errors: list[MapError]) -> Iterator[Difference]:
     both = (one, other)
     balance = sum(np.abs(data.values["energy_balance_error"]) for data in both)
-    power = np.minimum(*(data.values["shaft_power"] for data in both))
+    least = np.minimum(*(data.values["shaft_power"] for data in both))
+    power = np.where(least > 0.0, least, np.nan)  # elsewhere no efficiency, which has no error
     for definition in EfficiencyDefinition:
         pair = one.efficiency(definition).overall, other.efficiency(definition).overall
         if all(np.isfinite(values).any() for values in pair):

@@ -48,8 +48,8 @@ LOSSES = {
 class MapData:
     """A map: numbers over the five axes, nan where a point has no result.
 
-    name: the pump's; words: the solver of the points; bulk_modulus: the oil's, Pa; values: arrays by column, SI;
-    status, reason: text of each point; warnings: its remarks, (name, text).
+    name: the pump's; words: how points were solved; bulk_modulus: the oil's, Pa; values: arrays by column, SI;
+    status, reason: text of each point; warnings: its remarks, (name, text). rated: speed and pressure of the pump.
     """
 
     name: str
@@ -60,6 +60,7 @@ class MapData:
     status: np.ndarray
     reason: np.ndarray
     warnings: np.ndarray
+    rated: Mapping[MapInput, float]
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -168,6 +169,7 @@ def map_data(plan: MapPlan, words: str, outcomes: tuple[PartOutcome, ...]) -> Ma
         status=objects([outcome.status.value for outcome in outcomes], plan.shape),
         reason=objects([outcome.reason for outcome in outcomes], plan.shape),
         warnings=objects(remarks, plan.shape),
+        rated={MapInput.SPEED: plan.pump.pump.rated_speed, MapInput.PRESSURE: plan.pump.pump.rated_pressure},
     )
 
 

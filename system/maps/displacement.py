@@ -50,19 +50,6 @@ def toet_displacement(shaft_speed: Array, pressure_difference: Array, delivery_f
     return replace(derived, notes=(*_few(speeds, "speeds"), *derived.notes))
 
 
-def intercept_displacement(shaft_speed: Array, pressure_difference: Array, delivery_flow: Array) -> Derived:
-    """The zero-pressure intercept of Q/n over dp at one speed (ISO 8426-2:2025), arguments as `toet_displacement`.
-
-    A loss at zero pressure counts as lacking displacement. Raises InputError for readings of several speeds or of fewer
-    than two pressure differences.
-    """
-    if np.unique(levels(shaft_speed)).size > 1:
-        raise InputError("readings", "several shaft speeds", "readings of one")
-    if np.ptp(pressure_difference) == 0.0:
-        raise InputError("readings", "one pressure difference", "two at least")
-    return _at_no_pressure(pressure_difference, TURN * delivery_flow / shaft_speed, 1)
-
-
 def _at_no_pressure(difference: Array, displacement: Array, speeds: int) -> Derived:
     """The line of displacement over pressure difference at 0."""
     value, slope = _line(difference, displacement)

@@ -9,7 +9,7 @@ from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
 from system.inputs.faults import Fault, InputFaults
 from system.maps.data import LOSSES, MapData
-from system.maps.interpolation import MapError, MapInterpolant, inside, weights
+from system.maps.interpolation import MapError, MapInterpolant, box_text, outside, weights
 from system.maps.plan import MapAxis, MapInput
 from system.pump.efficiency import EfficiencyDefinition
 
@@ -52,8 +52,8 @@ class Duty:
     """Energies and losses of a pump over a cycle.
 
     energies: shaft, hydraulic, loss and every sink of the loss, by name; efficiency: mean overall one by
-    definition, energy over energy, with its error; marked: part of the time between points with a warning, by its
-    name; volume: delivered, m3; shown_by: source of the measured error.
+    definition, energy over energy, with its error, empty unless both energies are positive; marked: part of the time
+    between points with a warning, by its name; volume: delivered, m3; shown_by: source of the measured error.
     """
 
     duration: float
@@ -82,10 +82,11 @@ def duty(interpolant: MapInterpolant, cycle: Cycle, error: MapError) -> Duty:
     largest["loss"] = largest["shaft_power"] + largest["hydraulic_power"]
     names = {"shaft_power": "shaft", "hydraulic_power": "hydraulic", "loss": "loss", **LOSSES}
     energies = {words: Energy(over_time(interpolated[name]), time * largest[name]) for name, words in names.items()}
+    absent = {words for words in LOSSES.values() if energies[words] == Energy(0.0, 0.0)}
     return Duty(
         duration=time,
         volume=Energy(over_time(interpolated["delivery_flow"]), time * largest["delivery_flow"]),
-        energies={words: energy for words, energy in energies.items() if energy.value != 0.0 or energy.error != 0.0},
+        energies={words: energy for words, energy in energies.items() if words not in absent},
         efficiency=_efficiencies(interpolated, share, energies),
         marked=_marked(interpolant.data, places, share / time),
         shown_by=f"{error.count} {error.shown_by}",
@@ -109,20 +110,14 @@ def node_weights(axes: Sequence[MapAxis], cycle: Cycle) -> Array:
 
 def _hold_inside(axes: Sequence[MapAxis], cycle: Cycle) -> None:
     """Raise InputFaults with each input's first row outside the box; between rows a cycle cannot leave it."""
-    out = [
-        (int(np.argmin(good)), axis)
-        for axis in axes
-        if axis.input in cycle.inputs and not np.all(good := inside(axis, cycle.inputs[axis.input]))
-    ]
-    if out:
-        raise InputFaults("cycle", [_beyond(axis, cycle, row) for row, axis in out])
+    if out := outside(axes, cycle.inputs):
+        raise InputFaults("cycle", [_beyond(axis, cycle, row) for axis, row in out])
 
 
 def _beyond(axis: MapAxis, cycle: Cycle, row: int) -> Fault:
-    given, ends = axis.input, (axis.values[0], axis.values[-1])
+    given = axis.input
     found = f"{given.text(float(cycle.inputs[given][row]))} at {cycle.time[row]:.6g} s"
-    box = " .. ".join(dict.fromkeys(map(given.text, ends)))
-    return Fault(given.words, found, f"{box}, the map's box: nothing is extrapolated")
+    return Fault(given.words, found, box_text([axis]))
 
 
 def _stretches(cycle: Cycle) -> tuple[dict[MapInput, Array], Array]:
@@ -139,10 +134,15 @@ def _stretches(cycle: Cycle) -> tuple[dict[MapInput, Array], Array]:
 def _efficiencies(
     interpolated: Mapping[str, Array], share: Array, energies: Mapping[str, Energy]
 ) -> dict[EfficiencyDefinition, Energy]:
-    """Mean overall efficiency of each definition: useful energy over that of the shaft."""
+    """Mean overall efficiency of each definition: useful energy over that of the shaft.
+
+    None of a cycle that does not take energy at the shaft or gives none to the oil: it stands still, or motors.
+    """
+    shaft, hydraulic = energies["shaft"], energies["hydraulic"]
+    if not (shaft.value > 0.0 and hydraulic.value > 0.0):
+        return {}
     delivered = interpolated["port_delivery_pressure"] * interpolated["delivery_flow"]
     ports = float(share @ (delivered - interpolated["port_inlet_pressure"] * interpolated["inlet_flow"]))
-    shaft, hydraulic = energies["shaft"], energies["hydraulic"]
     kept = float(share @ interpolated["compression_power"])
     useful: dict[EfficiencyDefinition, float] = {
         EfficiencyDefinition.PAPER: ports,
@@ -151,7 +151,7 @@ def _efficiencies(
         EfficiencyDefinition.ENERGY_RETURNED: hydraulic.value + kept,
         EfficiencyDefinition.ENERGY_NOT_RETURNED: hydraulic.value,
     }
-    relative = hydraulic.error / abs(hydraulic.value) + shaft.error / shaft.value
+    relative = hydraulic.error / hydraulic.value + shaft.error / shaft.value
     return {
         definition: Energy(value / shaft.value, abs(value) / shaft.value * relative)
         for definition, value in useful.items()

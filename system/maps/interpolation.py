@@ -141,18 +141,27 @@ def inside(axis: MapAxis, places: Array) -> np.ndarray:
     return np.asarray((places >= lower - slack(axis)) & (places <= upper + slack(axis)))
 
 
+def outside(axes: Sequence[MapAxis], places: Mapping[MapInput, Array]) -> list[tuple[MapAxis, int]]:
+    """Axes that places (N,) leave, each with the first that does; an axis without places is not left."""
+    return [
+        (axis, int(np.argmin(good)))
+        for axis in axes
+        if axis.input in places and not np.all(good := inside(axis, places[axis.input]))
+    ]
+
+
+def box_text(axes: Sequence[MapAxis]) -> str:
+    """Ends of the axes as what was expected of a place outside."""
+    ends = (dict.fromkeys(map(axis.input.text, (axis.values[0], axis.values[-1]))) for axis in axes)
+    return ", ".join(map(" .. ".join, ends)) + ", the map's box: nothing is extrapolated"
+
+
 def _hold_inside(axes: Sequence[MapAxis], places: Mapping[MapInput, Array]) -> None:
-    out = []
-    for axis in axes:
-        wrong = places[axis.input][~inside(axis, places[axis.input])]
-        if wrong.size:
-            box = f"{axis.input.text(axis.values[0])} .. {axis.input.text(axis.values[-1])}"
-            out.append((axis.input, float(wrong[0]), box))
-    if out:
+    if out := outside(axes, places):
         raise InputError(
-            ", ".join(given.words for given, _, _ in out),
-            ", ".join(given.text(value) for given, value, _ in out),
-            ", ".join(box for _, _, box in out) + ", the map's box: nothing is extrapolated",
+            ", ".join(axis.input.words for axis, _ in out),
+            ", ".join(axis.input.text(float(places[axis.input][first])) for axis, first in out),
+            box_text([axis for axis, _ in out]),
         )
 
 

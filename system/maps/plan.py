@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -13,15 +14,15 @@ from reynolds.errors import InputError
 from system.description.pump import PumpDescription
 from system.inputs.faults import Fault
 from system.inputs.shown import Shown, shown_in
-from system.inputs.units import RPM, Dimension
+from system.inputs.units import Dimension
 from system.pump.operating import OperatingPoint, operating_point
 from system.pump_file.check import CheckWarning
 from system.pump_file.operating import check_operating_point
 
-PAPER_SPEEDS = tuple(RPM * speed for speed in (1000.0, 1300.0, 1700.0, 2100.0))
-PAPER_PRESSURES = tuple(1e6 * pressure for pressure in (5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 35.0))
-PAPER_RATIOS = (0.28, 0.51, 0.77, 1.0)
-"""The paper's 112 test points: rad/s, Pa gauge at the delivery port, share of the full displacement."""
+MOST_POINTS = 100_000
+"""Largest number of points of a map: each keeps some 60 numbers by name, about 10 kB with its file's text."""
+LUMPED_SECONDS = 0.006
+"""Processor time (s) of a lumped point, about."""
 
 
 class MapInput(Enum):
@@ -92,6 +93,11 @@ class MapPlan:
         """Number of levels of each axis."""
         return tuple(len(axis.values) for axis in self.axes)
 
+    @property
+    def size(self) -> int:
+        """Number of points."""
+        return math.prod(self.shape)
+
     @cached_property
     def points(self) -> tuple[OperatingPoint, ...]:
         """All points, the last axis' level changing first; raises InputError where the oil's law is not valid."""
@@ -100,7 +106,13 @@ class MapPlan:
         return tuple(operating_point(self.pump, **dict(zip(names, level, strict=True))) for level in levels)
 
     def checked(self) -> MapCheck:
-        """Faults and warnings of all points, each listed once."""
+        """Faults and warnings of all points, each listed once; a fault of more than MOST_POINTS alone."""
+        return self._checked
+
+    @cached_property
+    def _checked(self) -> MapCheck:
+        if self.size > MOST_POINTS:
+            return MapCheck((self._too_many(),), {})
         faults: Counter[Fault] = Counter()
         warnings: dict[str, list[CheckWarning]] = {}
         for point in self.points:
@@ -108,8 +120,21 @@ class MapPlan:
             faults.update(report.faults)
             for warning in report.warnings:
                 warnings.setdefault(warning.path, []).append(warning)
-        listed = {path: f"at {len(found)} points; at the first: {found[0]}" for path, found in warnings.items()}
+        listed = {
+            path: f"{path}: at {len(found)} of {self.size} points; at the first: {found[0].text}"
+            for path, found in warnings.items()
+        }
         return MapCheck(tuple(faults), listed)
+
+    def _too_many(self) -> Fault:
+        """The fault of a plan of more than MOST_POINTS."""
+        levels = " x ".join(f"{len(axis.values)} of {axis.input.words}" for axis in self.axes if len(axis.values) > 1)
+        most = (
+            f"at most {MOST_POINTS} points, which take {LUMPED_SECONDS * MOST_POINTS / 60.0:.0f} min at the lumped "
+            "fidelity and 1 GB of memory"
+        )
+        fewer = "fewer levels: numbers between them are interpolated (the map's error is measured)"
+        return Fault("points", f"{self.size}, levels {levels}", most, fewer)
 
 
 @dataclass(frozen=True)
@@ -125,15 +150,6 @@ def map_plan(pump: PumpDescription, axes: Sequence[MapAxis]) -> MapPlan:
     stated, point = {axis.input: axis for axis in axes}, operating_point(pump)
     held = {given: MapAxis(given, (getattr(point, given.value),)) for given in MapInput}
     return MapPlan(pump, tuple((held | stated).values()))
-
-
-def paper_axes() -> tuple[MapAxis, ...]:
-    """The paper's 112 points: four speeds, seven delivery pressures, four displacements."""
-    return (
-        MapAxis(MapInput.SPEED, PAPER_SPEEDS),
-        MapAxis(MapInput.PRESSURE, PAPER_PRESSURES),
-        MapAxis(MapInput.RATIO, PAPER_RATIOS),
-    )
 
 
 def point_words(point: OperatingPoint) -> str:

@@ -16,6 +16,7 @@ from reynolds.numerics.cache import content_key
 from system.description.parts import MaterialsSection, SurfacesSection
 from system.description.pump import PumpDescription
 from system.description.tolerance import ToleranceSection
+from system.maps.plan import LUMPED_SECONDS
 from system.points.lumped import lumped_point
 from system.points.table.means import SolvedPoint, given_films
 from system.points.table.point import table_point
@@ -67,7 +68,7 @@ class LumpedSolver:
     """`lumped_point`: films of given thickness."""
 
     words = "lumped"
-    cost = 0.006
+    cost = LUMPED_SECONDS
 
     @property
     def stated(self) -> Mapping[str, str]:

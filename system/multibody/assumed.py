@@ -13,8 +13,8 @@ from system.pump.operating import operating_point
 
 
 def assumptions(pump: PumpDescription) -> tuple[Assumption, ...]:
-    """Every value that floating gaps, rotating group, swash plate and diagnosis assume where the pump file states none,
-    each path once. An actuator is not among them: its area depends on the control pressure of a transient.
+    """Every value that floating gaps, rotating group, swash plate and diagnosis take where the pump file states
+    none, each path once. An actuator is not among them: only a transient has one.
     """
     plate = Taken()
     swinging_plate(pump, plate)

@@ -13,14 +13,16 @@ from system.description.assumptions import Assumption, Taken
 from system.description.parts import Stroking
 from system.description.pump import PumpDescription
 from system.films.parts import STEEL
-from system.inputs.units import Dimension
+from system.inputs.units import Dimension, format_quantity
 from system.multibody.places import actuator_arm, slippers_reach, stroking
 from system.multibody.rotating_group import joint_forces
 from system.points.lumped import lumped_point
-from system.pump.operating import OperatingPoint
+from system.pump.operating import operating_point
 
 FILLS = 0.1  # s in which an assumed orifice fills the actuator
 DROP = 1e6  # Pa over it meanwhile
+HOLDING_PRESSURE = 2.5e6
+"""Control pressure (Pa above the case) that an assumed actuator holds the plate with: usual of servo controls."""
 
 
 @dataclass(frozen=True)
@@ -64,13 +66,13 @@ class Mechanism:
     taken: tuple[Assumption, ...]
 
 
-def mechanism(pump: PumpDescription, point: OperatingPoint, control_pressure: float) -> Mechanism:
-    """The mechanism of a pump. An actuator that is not stated balances the pump with `control_pressure` (Pa) at
-    `point`, at full displacement.
+def mechanism(pump: PumpDescription) -> Mechanism:
+    """The mechanism of a pump. An actuator that is not stated holds the pump at its rating with HOLDING_PRESSURE: it
+    is that of the pump, whatever it is driven with.
     """
     taken = Taken()
     plate = swinging_plate(pump, taken)
-    return Mechanism(plate, _actuator(pump, plate, point, control_pressure, taken), tuple(taken.assumptions))
+    return Mechanism(plate, _actuator(pump, plate, taken), tuple(taken.assumptions))
 
 
 def swinging_plate(pump: PumpDescription, taken: Taken) -> SwingingPlate:
@@ -101,21 +103,27 @@ def swinging_plate(pump: PumpDescription, taken: Taken) -> SwingingPlate:
     )  # fmt: skip
 
 
-def _actuator(
-    pump: PumpDescription, plate: SwingingPlate, point: OperatingPoint, control_pressure: float, taken: Taken
-) -> Actuator:
+def _largest_moment(pump: PumpDescription) -> float:
+    """Largest moment (N m) over a turn that keeps the plate at rest at the rating and full displacement."""
+    rated = pump.pump
+    at = operating_point(
+        pump, shaft_speed=rated.rated_speed, delivery_pressure=rated.rated_pressure, displacement_ratio=1.0
+    )
+    return float(np.max(np.abs(joint_forces(pump, lumped_point(pump, at)).plate.control)))
+
+
+def _actuator(pump: PumpDescription, plate: SwingingPlate, taken: Taken) -> Actuator:
     stated = pump.actuator
     strokes, arm = stroking(pump, taken), actuator_arm(pump, taken)
     rate = taken.value("actuator.spring_rate", stated.spring_rate, 0.0, "no spring", Dimension.STIFFNESS)
     force = taken.value("actuator.spring_preload", stated.spring_preload, 0.0, "no spring", Dimension.FORCE)
     area = stated.area
     if area is None:
-        # that keeps the plate at rest, over the turn
-        moment = float(np.max(np.abs(joint_forces(pump, lumped_point(pump, point)).plate.control)))
+        moment = _largest_moment(pump)
         needed = moment / (arm * np.cos(plate.angle_max)) + force
-        holding = control_pressure - point.case_pressure
-        why = f"the highest control pressure holds the pump's largest moment, {moment:.4g} N m, and the spring"
-        area = taken.value("actuator.area", None, needed / holding, why, Dimension.AREA)
+        held = format_quantity(HOLDING_PRESSURE, Dimension.PRESSURE, digits=3)
+        why = f"{held} above the case hold the largest moment at the rating, {moment:.4g} N m, and the spring"
+        area = taken.value("actuator.area", None, needed / HOLDING_PRESSURE, why, Dimension.AREA)
     swept = area * arm * float(np.sin(plate.angle_max) - np.sin(plate.angle_min))
     flow = pump.ports.flow_coefficient * np.sqrt(2.0 * DROP / pump.oil.density)
     return Actuator(

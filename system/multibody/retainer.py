@@ -18,7 +18,7 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from system.multibody.kinematics import BallMotion
-from system.pump.laws.retainer import QUADRATURE_POINTS, BallGuide
+from system.pump.laws.retainer import QUADRATURE_POINTS, BallGuide, uniform_normal_force
 
 SAME = 1e-10  # share of the largest singular value below which a condition has no content
 
@@ -74,7 +74,7 @@ def guide_loss(friction: float, spring: float, guide: BallGuide, plate_axes: Arr
     """
     turning = speed * (plate_axes[2] - np.array([0.0, 0.0, 1.0]))
     sliding = np.cross(turning, contact_circle(guide, plate_axes), axisb=0, axisc=0)
-    normals = spring / (np.sin(guide.contact_latitude) * plate_axes[2, 2])
+    normals = uniform_normal_force(spring, guide, plate_axes[2, 2])
     return float(friction * normals * np.mean(np.linalg.norm(sliding, axis=0)))
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reynolds.errors import InputError, NotConverged, WallsOverlap
+from reynolds.errors import BeyondBarus, InputError, NotConverged, WallsOverlap
 from reynolds.numerics.arrays import Array
 from system.description.pump import PumpDescription
 from system.effects.applied import affected_leaks
@@ -26,9 +26,10 @@ from system.points.lumped import point_and_effects
 from system.pump.assembly import PumpPoint, assemble, met_point
 from system.pump.chamber.cycle import ChamberCycle, solve_cycle
 from system.pump.chamber.port_coupling import PortedCycle, ported_cycle
-from system.pump.chamber.problem import LeakTable
+from system.pump.chamber.problem import LeakTable, pressure_span
 from system.pump.chamber_kinds import Kinds, kinds
 from system.pump.film_thickness import at_temperature, unpressed
+from system.pump.friction_range import with_friction_range
 from system.pump.land_losses import creeping_film_leaks, land_losses, with_inertia
 from system.pump.laws.friction_pairs import FrictionPairs
 from system.pump.lumped import (
@@ -132,7 +133,7 @@ def films_point(
         )
     every, work = SAMPLES_PER_PITCH // positions_per_pitch, _work(pump, point, physics)
     group, cycles, rounds = work.group, work.cycles, 0
-    limit = tolerance * (abs(point.delivery_pressure - point.inlet_pressure) + 1e5)
+    limit = tolerance * pressure_span(point.delivery_pressure, point.inlet_pressure)
     while rounds < ROUND_LIMIT:
         rounds += 1
         try:
@@ -154,7 +155,8 @@ def films_point(
             f"films and chamber pressure: after {ROUND_LIMIT} rounds the pressure still changes by {change:.3g} "
             f"Pa, expected at most {limit:.3g} Pa; try the lumped fidelity, more film angles, stiffer walls"
         )
-    sampled, whole = _sampling_error(work, ported, leaks), _pump_point(work, point, gaps, ported)
+    sampled = _sampling_error(work, ported, leaks)
+    whole = with_friction_range(pump, _pump_point(work, point, gaps, ported))
     kinds_found = [FilmsKind(one.chambers, one.rotor, one.parts, films) for one, films in zip(group, gaps, strict=True)]
     return FilmsPoint(tuple(kinds_found), work.physics, whole, rounds, change, sampled)
 
@@ -166,10 +168,10 @@ def _of_pump(pump: PumpDescription, reason: InputError) -> InputError | NotConve
     at no pressure.
     """
     if isinstance(reason, WallsOverlap):
-        path, with_it = GIVEN_BY[reason.where.partition(" ")[0]]
+        path, with_it = GIVEN_BY[reason.part]
         return InputError(path, f"{reason.found} at the given position", f"walls apart: more of it, or less {with_it}")
     stated = pump.physics.viscosity_pressure
-    if stated is None or not reason.where.startswith("Barus"):
+    if stated is None or not isinstance(reason, BeyondBarus):
         return reason
     return NotConverged(
         "physics.viscosity_pressure: between rigid walls a film has no solution where plain oil would come to "

@@ -44,6 +44,12 @@ def slipper_shortfall(rotor: Rotor, drive: SlipperDrive, angle: float) -> Shortf
     above = float(drive.chamber_pressure(angle)) - drive.case_pressure
     force, tilting_x, tilting_y = np.asarray(drive.outer(angle))
     pressed, now = -float(force), slipper.land_outer_radius
+    if pressed <= 0.0:
+        return Shortfall(
+            f"at {_degrees(angle)} nothing presses the slipper on: {_force(-pressed)} pull it off its plate, which its "
+            "retainer takes",
+            "a smaller retainer.clearance, or a stiffer spring (ball_guide.spring_preload)",
+        )
     place = math.hypot(tilting_x, tilting_y) / pressed * now
     what = f"at {_degrees(angle)} {_of_force(pressed, above * slipper.lands.effective_area)}"
 
@@ -66,12 +72,14 @@ def _pulled_off(drive: SlipperDrive) -> Shortfall | None:
     angles = np.linspace(0.0, 2.0 * np.pi, ANGLES, endpoint=False)
     lift = np.array([-float(np.asarray(drive.outer(angle))[0]) for angle in angles])
     worst = int(np.argmin(lift))
-    holds = math.inf if drive.retainer is None else drive.retainer.limit
-    if -lift[worst] < holds:
+    holds = 0.0 if drive.retainer is None else drive.retainer.limit
+    if -lift[worst] <= holds:
         return None
+    pulled = f"at {_degrees(float(angles[worst]))} the slipper is pulled off its plate with {_force(-lift[worst])}"
+    if drive.retainer is None:
+        return Shortfall(f"{pulled}, and no retainer holds it", "a retainer")
     return Shortfall(
-        f"at {_degrees(float(angles[worst]))} the slipper is pulled off its plate with {_force(-lift[worst])} beyond "
-        f"the spring's share, and the retainer lifts off from {_force(holds)} on",
+        f"{pulled} beyond the spring's share, and the retainer lifts off from {_force(holds)} on",
         "a stiffer spring (ball_guide.spring_preload), or retainer.kind = 'clearance'",
     )
 
@@ -146,6 +154,8 @@ def _balance(pump: PumpDescription, outer: float, spline_height: float) -> Block
 
 
 def _of_force(pressed: float, lifted: float) -> str:
+    if pressed <= 0.0:
+        return f"{_force(-pressed)} pull it off its plate, its lands lift {_force(lifted)}"
     return (
         f"{_force(pressed)} press on, its lands lift {_force(lifted)} ({100.0 * lifted / pressed:.3g} %), and the film "
         f"has to raise {_force(pressed - lifted)}"

@@ -4,7 +4,7 @@ Arrays over n equidistant angles of a chamber from 0, those of the gaps' reporte
 pitch is known where chambers are equal; then it repeats.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -183,10 +183,11 @@ def shaft_moment(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts, group: 
     axis = bore_axes(rotor, len(ball))
     along = np.sum(ball * axis, axis=1)[:, None] * axis
     piston = along + axis_shift(gaps, rotor, parts, parts.piston.centre_of_mass)
-    shift = resampled(np.stack([piston, ball, ball, ball], axis=1), len(group))
+    shift = resampled(np.stack([piston, ball, ball], axis=1), len(group))
     held = [
-        -float(np.cross(places + moved, forces)[:, 2].sum()) + float(at.ball_moment @ normal * normal[2])
-        for at, moved, (places, forces) in zip(group, shift, _applied(rotor, parts, group), strict=True)
+        -float(np.cross(at.places + moved, np.vstack([at.inertia, at.plate]))[:, 2].sum() + at.couple[2])
+        + float(at.ball_moment @ normal * normal[2])
+        for at, moved in zip(group, shift, strict=True)
     ]
     swung = _swung(rotor, np.array([at.places[:2] for at in group]), shift[:, :2])
     return np.asarray(np.array(held) + swung)
@@ -203,19 +204,6 @@ def _swung(rotor: Rotor, places: Array, shift: Array) -> Array:
     rate = (np.roll(places, -1, axis=0) - np.roll(places, 1, axis=0)) / (2.0 * step)
     bend = (np.roll(shift, -1, axis=0) - 2.0 * shift + np.roll(shift, 1, axis=0)) / step**2
     return np.asarray(rotor.point.shaft_speed**2 * np.sum(bend * rate, axis=2) @ masses)
-
-
-def _applied(rotor: Rotor, parts: FloatingParts, group: tuple[GroupInstant, ...]) -> Iterator[tuple[Array, Array]]:
-    """Places and forces (4, 3) on each piston and slipper: inertia of both, the plate's lift and its friction.
-
-    Lift acts where it balances the slipper's moments, friction under the ball: its moment about the plate's
-    normal is that of the film, with the joint's.
-    """
-    normal = plate_axes(rotor.drive)[2]
-    foot = parts.slipper.ball_height - rotor.pump.slipper.centre_of_mass_to_ball
-    for at in group:
-        lift = (at.plate @ normal) * normal
-        yield np.vstack([at.places, at.places[1] + foot * normal]), np.vstack([at.inertia, lift, at.plate - lift])
 
 
 def block_torque(block: GapRevolution[BlockReport], samples: int) -> Array:

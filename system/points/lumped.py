@@ -18,6 +18,7 @@ from system.pump.chamber.port_coupling import PortedCycle, ported_cycle
 from system.pump.chamber.problem import LeakTable
 from system.pump.chamber_kinds import Kinds, kinds
 from system.pump.film_thickness import expansion
+from system.pump.friction_range import with_friction_range
 from system.pump.land_losses import land_losses, with_inertia
 from system.pump.lumped import (
     PistonMotion,
@@ -48,9 +49,8 @@ def lumped_point(pump: PumpDescription, point: OperatingPoint, tolerance: float 
     found = kinds(pump)
     expansion(pump, point.temperature)
     plain = _solved(found, pump, point, (), tolerance)
-    if not pump.physics.on:
-        return plain
-    return _solved(found, pump, point, _effects(found, plain), tolerance)
+    affected = _solved(found, pump, point, _effects(found, plain), tolerance) if pump.physics.on else plain
+    return with_friction_range(pump, affected)
 
 
 def point_and_effects(pump: PumpDescription, point: OperatingPoint) -> tuple[PumpPoint, tuple[Effects[float], ...]]:

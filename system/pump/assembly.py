@@ -16,7 +16,7 @@ from system.pump.chamber.port_coupling import Port, PortedCycle
 from system.pump.chamber.problem import LeakTable
 from system.pump.chamber.turn import Gaps
 from system.pump.laws.friction_pairs import FrictionPairs, Pair, over_chambers
-from system.pump.laws.kinematics import stroke
+from system.pump.laws.kinematics import displacement, stroke
 from system.pump.operating import OperatingPoint
 from system.pump.ports.areas import opening_area
 from system.pump.power import (
@@ -38,6 +38,7 @@ class PointWarning(Enum):
     CHAMBER_CAVITATES = "chamber_cavitates"
     CHAMBER_OVERPRESSURE = "chamber_overpressure"
     ENERGY_NOT_BALANCED = "energy_not_balanced"
+    FRICTION_AT_LOW_SPEED = "friction_at_low_speed"
     NO_DELIVERY = "no_delivery"
     PORT_PRESSURE_FOLLOWS_LINE = "port_pressure_follows_line"
     START_REFUSED = "start_refused"
@@ -195,7 +196,7 @@ def put_together(
         exchange=exchange,
         bench=metered(reading, outside),
         power=power,
-        geometric_displacement=pistons * problem.piston_area * stroke(problem.drive),
+        geometric_displacement=displacement(pistons, problem.piston_area, stroke(problem.drive)),
         derived_displacement=derived_displacement,
         checks=PointChecks(
             mass_balance_error=cycle.checks.mass_balance_error,

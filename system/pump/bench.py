@@ -2,7 +2,7 @@
 
 Eqs. (1)-(5) of Xu, Hu, Zhang and Mao (2017), ISO 4391/4409, and an energy-exact split."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Generic
 
 import numpy as np
@@ -70,6 +70,10 @@ class Efficiency:
     overall: float
     volumetric: float
     hydromechanical: float
+
+
+EFFICIENCIES = tuple(part.name for part in fields(Efficiency))
+"""Names of the three efficiencies."""
 
 
 @dataclass(frozen=True)
@@ -175,8 +179,13 @@ def elastic_energy(pressure: float, bulk_modulus: float) -> float:
     return float(bulk_modulus * np.expm1(pressure / bulk_modulus) - pressure)
 
 
+def of_shaft_power(reading: BenchReading, useful: float) -> float:
+    """Useful power (W) over the shaft power. Raises ValueError without shaft power."""
+    if not reading.shaft_power > 0.0:
+        raise ValueError(f"shaft power {reading.shaft_power:.3g} W: expected more than 0 for an efficiency")
+    return useful / reading.shaft_power
+
+
 def _overall(reading: BenchReading) -> float:
     r = reading
-    if not r.shaft_power > 0.0:
-        raise ValueError(f"shaft power {r.shaft_power:.3g} W: expected more than 0 for an efficiency")
-    return (r.delivery_flow * r.delivery_pressure - r.inlet_flow * r.inlet_pressure) / r.shaft_power
+    return of_shaft_power(r, r.delivery_flow * r.delivery_pressure - r.inlet_flow * r.inlet_pressure)

@@ -7,7 +7,7 @@ from enum import Enum
 from math import nan
 
 from reynolds.errors import InputError
-from system.pump.bench import BenchReading, Efficiency, energy_split, iso_efficiency, paper_efficiency
+from system.pump.bench import BenchReading, Efficiency, energy_split, iso_efficiency, of_shaft_power, paper_efficiency
 
 
 class EfficiencyDefinition(Enum):
@@ -68,8 +68,5 @@ def efficiency(definition: EfficiencyDefinition, basis: EfficiencyBasis) -> Effi
 
 
 def _by_energy(reading: BenchReading, bulk_modulus: float, returned: bool) -> Efficiency:
-    if not reading.shaft_power > 0.0:
-        raise ValueError(f"shaft power {reading.shaft_power:.3g} W: expected more than 0 for an efficiency")
     split = energy_split(reading, bulk_modulus)
-    useful = split.hydraulic + (split.elastic if returned else 0.0)
-    return Efficiency(useful / reading.shaft_power, nan, nan)
+    return Efficiency(of_shaft_power(reading, split.hydraulic + (split.elastic if returned else 0.0)), nan, nan)

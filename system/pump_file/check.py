@@ -22,8 +22,13 @@ class CheckWarning:
     limit: str
     remedy: str
 
+    @property
+    def text(self) -> str:
+        """The warning without its path."""
+        return f"{self.value}, limit {self.limit}; {self.remedy}"
+
     def __str__(self) -> str:
-        return f"{self.path}: {self.value}, limit {self.limit}; {self.remedy}"
+        return f"{self.path}: {self.text}"
 
 
 Finding = Fault | CheckWarning

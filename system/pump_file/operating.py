@@ -23,6 +23,11 @@ CAVITATION_PRESSURE_ABS = 5e3
 FILLING_PRESSURE_ABS = 80e3
 # Of its volume; a mineral oil (1.4 to 2 GPa, stiffer as it is pressed) is not compressed so far by any pump.
 LARGE_COMPRESSION = 0.1
+# Makers' limits of a mineral oil in an axial piston pump, m2/s: Bosch Rexroth, RE 92714 (A10VSO, 10.2014): 10 to 400
+# in continuous operation, up to 1600 at a cold start, for minutes and without load.
+THINNEST = 10e-6
+THICKEST = 400e-6
+THICKEST_AT_START = 1600e-6
 
 
 def _above_cavitation(path: str, value: float) -> Iterator[Finding]:
@@ -78,12 +83,17 @@ def pump_raises_pressure(pump: PumpDescription) -> Iterator[Finding]:
 def pressure_is_within_rating(pump: PumpDescription) -> Iterator[Finding]:
     """The delivery pressure does not exceed the rated one."""
     if pump.operating.pressure > pump.pump.rated_pressure:
-        yield CheckWarning(
-            "operating.pressure",
-            f"{pressure(pump.operating.pressure)} gauge",
-            f"rated_pressure, {pressure(pump.pump.rated_pressure)}",
-            "films and coefficients are extrapolated there",
-        )
+        yield beyond_rated_pressure(pump.operating.pressure, pump.pump.rated_pressure)
+
+
+def beyond_rated_pressure(delivery: float, rated: float) -> CheckWarning:
+    """Return the warning of a delivery pressure above the rated one, Pa."""
+    return CheckWarning(
+        "operating.pressure",
+        f"{pressure(delivery)} gauge",
+        f"rated_pressure, {pressure(rated)} (films and coefficients are extrapolated)",
+        "stay below it, or state a higher rated_pressure where the pump is made for it",
+    )
 
 
 @needs("operating.pressure", "oil.bulk_modulus")
@@ -104,14 +114,21 @@ def oil_is_little_compressed(pump: PumpDescription) -> Iterator[Finding]:
 def speed_is_within_rating(pump: PumpDescription) -> Iterator[Finding]:
     """The shaft turns, and not faster than rated."""
     speed, rated = pump.operating.speed, pump.pump.rated_speed
-    shown = format_quantity(speed, Dimension.ANGULAR_SPEED, digits=4)
     if not speed > 0.0:
-        yield Fault("operating.speed", shown, "more than 0 rpm")
+        yield Fault("operating.speed", format_quantity(speed, Dimension.ANGULAR_SPEED, digits=4), "more than 0 rpm")
     elif speed > rated:
-        limit = format_quantity(rated, Dimension.ANGULAR_SPEED, digits=4)
-        yield CheckWarning(
-            "operating.speed", shown, f"rated_speed, {limit}", "films and coefficients are extrapolated there"
-        )
+        yield beyond_rated_speed(speed, rated)
+
+
+def beyond_rated_speed(speed: float, rated: float) -> CheckWarning:
+    """Return the warning of a shaft speed above the rated one, rad/s."""
+    shown, limit = (format_quantity(one, Dimension.ANGULAR_SPEED, digits=4) for one in (speed, rated))
+    return CheckWarning(
+        "operating.speed",
+        shown,
+        f"rated_speed, {limit} (films and coefficients are extrapolated)",
+        "stay below it, or state a higher rated_speed where the pump is made for it",
+    )
 
 
 @needs("operating.displacement_ratio")
@@ -143,6 +160,38 @@ def oil_has_a_viscosity(pump: PumpDescription) -> Iterator[Finding]:
     except InputError as reason:
         shown = format_quantity(temperature, Dimension.TEMPERATURE, digits=4)
         yield Fault("operating.temperature", shown, f"where the oil's law holds: {reason.expected}")
+
+
+@needs(
+    "oil.kinematic_viscosity_40C",
+    "oil.kinematic_viscosity_100C",
+    "operating.temperature",
+    "oil.density",
+    "oil.bulk_modulus",
+    "oil.specific_heat",
+)
+def oil_is_neither_thick_nor_thin(pump: PumpDescription) -> Iterator[Finding]:
+    """The oil's viscosity at the operating temperature is one that makers of pumps allow."""
+    temperature = pump.operating.temperature
+    try:
+        viscosity = float(walther(temperature, pump.oil.fluid))
+    except InputError:  # `oil_has_a_viscosity` reports such an oil
+        return
+    if THINNEST <= viscosity <= THICKEST:
+        return
+    found, thin, thick, start = (
+        format_quantity(value, Dimension.KINEMATIC_VISCOSITY, digits=3)
+        for value in (viscosity, THINNEST, THICKEST, THICKEST_AT_START)
+    )
+    at = format_quantity(temperature, Dimension.TEMPERATURE, digits=4)
+    if viscosity < THINNEST:
+        limit, remedy = f"{thin}, least in continuous operation", "a lower temperature or a thicker oil"
+    else:
+        limit = f"{thick}, largest in continuous operation (at a cold start without load {start})"
+        remedy = "a higher temperature or a thinner oil"
+        if viscosity > THICKEST_AT_START:
+            remedy = f"{remedy}: no pump starts so, and the oil's law, stated at 40 and 100 degC, is extrapolated"
+    yield CheckWarning("operating.temperature", f"at {at} the oil has {found}", limit, remedy)
 
 
 @needs(

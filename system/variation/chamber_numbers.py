@@ -52,16 +52,16 @@ def pressure_numbers(pump: PumpDescription, point: OperatingPoint[Number], press
 def pressure_moment(drive: SwashDrive[Number], shaft_angle: Array, force: Array, pistons: int) -> Array:
     """Return the moment (.., N) N m of the pistons' pressure forces (.., N) N about the axis that the plate swings by.
 
-    By virtual work M = sum F dl/dalpha, l = (R/cos beta) T/(1 + tan beta T) the way of a piston into the block from
+    By virtual work M = -sum F dl/dalpha, l = (R/cos beta) T/(1 + tan beta T) the way of a piston into the block from
     the plane of no displacement, T = tan(tilt) cos(phi), dT/dalpha = cos(phi - shift) + tan(tilt) cos(shift) T of a
-    plate that swings with its cross angle. Positive: the pressure turns the plate back. Without inertia and friction,
-    which `forces.csv` of a run holds.
+    plate that swings with its cross angle. Positive: increases the swash angle, as in a transient. Without inertia and
+    friction, which `forces.csv` of a run holds.
     """
     tilt, shift, cone = np.tan(drive.swash_angle), drive.dead_centre_shift, drive.bore_cone_angle
     slope = tilt * np.cos(shaft_angle)
     swing = np.cos(shaft_angle - shift) + tilt * np.cos(shift) * slope
     way = drive.pitch_radius / np.cos(cone) * swing / (1.0 + np.tan(cone) * slope) ** 2
-    return over_chambers([force * way], pistons)
+    return -over_chambers([force * way], pistons)
 
 
 def slipper_balance(pump: PumpDescription, drive: SwashDrive[Number]) -> Any:
@@ -79,16 +79,17 @@ def slipper_balance(pump: PumpDescription, drive: SwashDrive[Number]) -> Any:
 
 
 def flow_numbers(point: PumpPoint) -> dict[str, float]:
-    """Return the numbers OF_FLOW of a point, m3/s, all chambers: volume at chamber pressure.
+    """Return the numbers OF_FLOW of a point, m3/s, all chambers.
 
-    reverse_flow: mean over the turn of the flow out of the delivery port into chambers, and out of chambers into the
-    inlet; ripples: of either port, from the least to the largest flow over the turn.
+    reverse_flow: mean over the turn of what flows out of the delivery port into chambers, and out of chambers into the
+    inlet, volume at chamber pressure; ripples: of the flow into the delivery line and out of the inlet line, from the
+    least to the largest over the turn, volume at the port's pressure, as a run of the pump tells them.
     """
     flows = [one.flow for one in point.chambers]
     each = point.pistons / len(flows)
     return {
         "reverse_flow.delivery": each * sum(float(np.mean(np.maximum(-one.delivery, 0.0))) for one in flows),
         "reverse_flow.inlet": each * sum(float(np.mean(np.maximum(one.suction, 0.0))) for one in flows),
-        "delivery_flow_ripple": float(np.ptp(point.delivery_flow_ripple)),
-        "inlet_flow_ripple": float(np.ptp(over_chambers([one.suction for one in flows], point.pistons))),
+        "delivery_flow_ripple": float(np.ptp(point.delivery.line_flow)),
+        "inlet_flow_ripple": float(np.ptp(point.suction.line_flow)),
     }

@@ -14,6 +14,7 @@ from system.inputs.shown import PERCENT, Shown, shown_in
 from system.inputs.units import TURN
 from system.maps.point import GAPS
 from system.points.table.means import SolvedPoint
+from system.pump.bench import EFFICIENCIES
 from system.variation.chamber_numbers import OF_FLOW, OF_PRESSURE, flow_numbers, pressure_numbers
 
 _BENCH = (
@@ -88,6 +89,11 @@ class Measure:
         return self.reading.unit
 
     @property
+    def within_one(self) -> bool:
+        """True for a share that no pump has above 1: an efficiency, a part of the turn."""
+        return self.name == CAVITY or self.name.startswith("efficiency.")
+
+    @property
     def scale(self) -> float:
         """Number of units that people read in one SI unit."""
         return self.reading.factor
@@ -158,7 +164,7 @@ MEASURES = {
     one.name: one
     for one in (
         Measure(LOSS, "total loss", "W", _mean("loss")),
-        *(_efficiency(place, part) for place, part in enumerate(("overall", "volumetric", "hydromechanical"))),
+        *(_efficiency(place, part) for place, part in enumerate(EFFICIENCIES)),
         Measure(DRAIN, "case drain", "m3/s", _mean(DRAIN)),
         *_gaps("leakage", "leakage", "m3/s", _mean, Needs.PRESSURE),
         Measure("delivery_flow", "delivery flow", "m3/s", _mean("delivery_flow")),
@@ -170,9 +176,9 @@ MEASURES = {
         Measure(PEAK, "highest chamber pressure", "Pa", _largest(PEAK)),
         Measure("pressure_rate", "rate of the chamber pressure, rms", "Pa/s", _mean("pressure_rate")),
         Measure(CAVITY, "share of the turn with a cavity", "1", _largest(CAVITY)),
-        Measure("swash_moment.mean", "moment of the pressure on the swash plate", "N m",
+        Measure("swash_moment.mean", "moment of the pressure towards a larger swash angle", "N m",
                 _mean("swash_moment.mean")),
-        Measure("swash_moment.amplitude", "amplitude of the moment on the swash plate", "N m",
+        Measure("swash_moment.amplitude", "amplitude of the moment of the pressure on the swash plate", "N m",
                 _mean("swash_moment.amplitude")),
         Measure("slipper_balance", "hydrostatic balance of the slipper", "1", _smallest("slipper_balance")),
         *_gaps("film_least", "least film", "m", _smallest, Needs.FILMS),

@@ -91,9 +91,21 @@ def alike(path: str, values: Array) -> Array:
 
 
 def _value(drawn: Drawn, score: Array) -> Array:
-    if drawn.shape is Shape.NORMAL:
-        return np.asarray(drawn.middle + drawn.sigma * score)
-    return quantile(drawn.shape, drawn.least, drawn.most, drawn.peak, ndtr(score))
+    if drawn.shape is not Shape.NORMAL:
+        return quantile(drawn.shape, drawn.least, drawn.most, drawn.peak, ndtr(score))
+    if np.isfinite(drawn.least):
+        low, high = (ndtr(_score(drawn, end)) for end in (drawn.least, drawn.most))
+        score = ndtri(low + (high - low) * ndtr(score))
+    if drawn.logarithmic:
+        return np.asarray(drawn.middle * np.exp(drawn.sigma / drawn.middle * score))
+    return np.asarray(drawn.middle + drawn.sigma * score)
+
+
+def _score(drawn: Drawn, value: float) -> float:
+    """Return the standard score of a value of a normal or log-normal dimension."""
+    if drawn.logarithmic:
+        return float(np.log(value / drawn.middle) / (drawn.sigma / drawn.middle))
+    return (value - drawn.middle) / drawn.sigma
 
 
 def quantile(shape: Shape, least: float, most: float, peak: float, share: Array) -> Array:

@@ -223,7 +223,7 @@ def _chosen(
         if options:
             chosen[path] = options
         else:
-            refused.append(Refused(key, _why(pump, key, step)))
+            refused.append(Refused(key, f"the geometry refuses both sides: {'; '.join(_whys(pump, key, step))}"))
     return chosen, refused
 
 
@@ -231,13 +231,13 @@ def _varied_to(pump: PumpDescription, path: str, value: float) -> PumpDescriptio
     return varied(pump, ((path, value),))
 
 
-def _why(pump: PumpDescription, key: PumpKey, step: float) -> str:
-    try:
-        varied(pump, ((key.path, key.value + step),))
-    except InputFaults as reason:
-        first = reason.faults[0]
-        return f"the geometry refuses both sides: {first.path}: {first.found}, expected {first.expected}"
-    return "no step is admitted"
+def _whys(pump: PumpDescription, key: PumpKey, step: float) -> Iterator[str]:
+    """Yield the value on either side of the stated one and what is wrong with it."""
+    for value in (key.value - step, key.value + step):
+        try:
+            varied(pump, ((key.path, value),))
+        except InputFaults as reason:
+            yield f"at {key.shown(value)} {reason.faults[0].line}"
 
 
 def _better(before: KeySlopes | None, after: KeySlopes) -> KeySlopes:

@@ -25,8 +25,8 @@ from system.work.kept_results import KeptPoints, run_kept
 from system.work.progress import Report
 from system.work.tasks import Executor, PartOutcome
 
-FORMAT = 2
-"""Raised when the same pump gives other numbers: by its laws, or by the kept numbers."""
+FORMAT = 3
+"""Raised when the same pump gives other numbers: by the laws behind it, or by what is kept."""
 PART = 0.3
 """Least seconds of work in a batch, for which the data sent with it are negligible."""
 _OF_TABLE = (

@@ -11,6 +11,7 @@ import numpy as np
 from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
 from system.description.drawn import Drawing
+from system.variation.admitted import commonest
 from system.variation.measures import Measure, measured
 from system.variation.sampling import Series, drawn_series
 from system.variation.scatter import FEWEST, Interval, Limit, Scatter, scatter, share_of
@@ -34,9 +35,9 @@ class LimitFound:
 class Tolerance:
     """Scatter of a series of pumps.
 
-    pumps: drawn; series: those with a result, values and `numbers` (N, P, NUMBERS) of each; refused, failed: reasons of
-    the others with their count; scatters, shares: of each measure over all operating points; at_sites: of each measure
-    at each point, (P, M).
+    pumps: drawn; series: those with a result, values and `numbers` (N, P, NUMBERS) of each; refused, failed: what
+    keeps the others from one, as `commonest` has it; scatters, shares: of each measure over all operating points;
+    at_sites: of each measure at each point, (P, M).
     """
 
     measures: tuple[Measure, ...]
@@ -73,8 +74,8 @@ def tolerance(
 ) -> Tolerance:
     """Return the scatter of `count` pumps drawn from a drawing.
 
-    Pumps that the geometry refuses are counted, never cut to a limit; they have no part in the scatter. Raises
-    InputError where too few are left.
+    Pumps that the geometry refuses are counted, not altered; they have no part in the scatter
+    (`system.variation.admitted` knows before whether they are too many). Raises InputError where too few are left.
     """
     drawn = drawn_series(drawing, count, seed)
     outcomes = solved_variants(work, list(drawn.variants(work.pump)), folder, executor, report, earlier)
@@ -132,16 +133,4 @@ def _limit(limit: Limit, measures: tuple[Measure, ...], of_all: Array, at_each: 
 
 
 def _reasons(outcomes: Sequence[PartOutcome], kinds: tuple[PartStatus, ...]) -> dict[str, int]:
-    """Return the reasons of outcomes without a result, without their values, with the count of each."""
-    found: dict[str, int] = {}
-    for one in outcomes:
-        if one.status in kinds:
-            words = _subject(one.reason)
-            found[words] = found.get(words, 0) + 1
-    return found
-
-
-def _subject(reason: str) -> str:
-    """Return the subject of a reason: the path of its first fault, or its words up to a number."""
-    path, colon, _ = reason.partition(":")
-    return path if colon and " " not in path else reason
+    return commonest(one.reason for one in outcomes if one.status in kinds)

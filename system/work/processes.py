@@ -7,7 +7,7 @@ from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 if TYPE_CHECKING:
     from concurrent.futures import Future, ProcessPoolExecutor
@@ -45,6 +45,7 @@ class ProcessPool:
     def __init__(self, workers: int) -> None:
         self.workers = workers
         self._pool: ProcessPoolExecutor | None = None
+        self._begun: set[Future[Any]] = set()
 
     @property
     def here(self) -> bool:
@@ -87,21 +88,30 @@ class ProcessPool:
                 suspects.extend(lost)
 
     def leave(self) -> None:
-        """Stop the others after the parts they are at."""
-        if self._pool is not None:
-            self._pool.shutdown(cancel_futures=True)
-            self._pool = None
+        """Stop the others after the parts they are at; at once after a further Ctrl-C."""
+        if self._pool is None:
+            return
+        from concurrent.futures import wait
 
-    def _leave_broken(self) -> None:
-        """Stop the others at once after a process died.
+        try:
+            for future in self._begun:
+                future.cancel()
+            wait(self._begun)
+        finally:
+            self._stop()
 
-        A process that starts while its pool breaks is missed by the pool's own clean-up (CPython 3.11), which would
-        then wait for it indefinitely.
+    def _stop(self) -> None:
+        """Stop the others at once.
+
+        The pool's own end is not relied on (CPython 3.11): after a Ctrl-C it may wait for ever for processes that it
+        has told nothing, and one that starts while the pool breaks is missed by its clean-up.
         """
-        if self._pool is not None:
-            for process in list((self._pool._processes or {}).values()):
+        pool, self._pool = self._pool, None
+        self._begun.clear()
+        if pool is not None:
+            for process in list((pool._processes or {}).values()):
                 process.kill()
-        self.leave()
+            pool.shutdown(cancel_futures=True)
 
     def _until_a_death(
         self,
@@ -119,21 +129,23 @@ class ProcessPool:
         while parts or flying:
             try:
                 while parts and len(flying) < most:
-                    flying[self._hands().submit(task, parts[0])] = parts[0]
-                    parts.popleft()
-            except BrokenProcessPool:  # found at the next submit: parts under way, if any, are lost
+                    begun = self._hands().submit(task, parts[0])
+                    flying[begun] = parts.popleft()
+                    self._begun.add(begun)
+            except BrokenProcessPool:  # found at the next submit: what flies is lost, if anything flies
                 if not flying:
-                    self._leave_broken()
+                    self._stop()
                     continue
             done = wait(flying, TICK if meanwhile else None, FIRST_COMPLETED).done
             if meanwhile and not done:
                 meanwhile()
             landed = {future: flying.pop(future) for future in done}
+            self._begun -= done
             broken = {f: part for f, part in landed.items() if isinstance(f.exception(), BrokenProcessPool)}
             yield from (_landed(f, part) for f, part in landed.items() if f not in broken)
             if broken:
                 lost.extend([*broken.values(), *flying.values()])
-                self._leave_broken()
+                self._stop()
                 return
 
     def _hands(self) -> ProcessPoolExecutor:

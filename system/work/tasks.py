@@ -111,5 +111,5 @@ def internal_reason(error: BaseException) -> str:
 
 def _line(reason: InputFaults | InputError) -> str:
     if isinstance(reason, InputFaults):
-        return "; ".join(f"{fault.path}: {fault.found}, expected {fault.expected}" for fault in reason.faults)
+        return "; ".join(fault.line for fault in reason.faults)
     return str(reason)

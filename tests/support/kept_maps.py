@@ -5,7 +5,7 @@ from dataclasses import replace
 from bench_pump import BENCH
 
 from swashfilm.runs.map.files import write_map
-from system import load_pump
+from system import load_pump, resolved_toml
 from system.inputs.units import RPM
 from system.maps.data import map_data
 from system.maps.plan import MapAxis, MapInput, map_plan
@@ -28,6 +28,6 @@ def kept_map(folder, levels, without=(), solver=None):
     for k in without:
         outcomes[k] = replace(outcomes[k], status=PartStatus.NOT_CONVERGED, reason="no film", record={})
     folder.mkdir()
-    about = {"stated": {}, "resolved_toml": "", "assumptions": []}
+    about = {"stated": {}, "resolved_toml": resolved_toml(plan.pump), "assumptions": []}
     write_map(folder / "map.nc", map_data(plan, work.solver.words, tuple(outcomes)), None, about)
     return folder

@@ -44,11 +44,14 @@ from reynolds import (
     point_fields,
     rectangle,
 )
-from reynolds.laws.contact import asperities_of
+from reynolds.laws.contact import Asperities
 
 VISCOSITY, PRESSURE_COEFFICIENT, AMBIENT, VAPOUR = 6.8e-3, 9.5e-9, 1e5, 100.0
 CLEARANCE, FIT = 1e-3, 0.2  # of the diameter, assumed; half width of a class of fit over it
-SUMMITS = asperities_of(0.001, 0.05, float(np.hypot(0.13e-6, 0.28e-6)), 53.3e9, 0.02, summit_height=0.21e-6 + 0.39e-6)
+SIGMA, ELASTIC_FACTOR = float(np.hypot(0.13e-6, 0.28e-6)), 1e-3  # of the summits, m; K
+PRODUCT = 0.05  # eta beta sigma; with K given it changes no pressure
+BETA = SIGMA / (ELASTIC_FACTOR / (16.0 * np.sqrt(2.0) * np.pi / 15.0 * PRODUCT**2)) ** 2
+SUMMITS = Asperities(PRODUCT / (BETA * SIGMA), BETA, SIGMA, 53.3e9, 0.02, summit_height=0.21e-6 + 0.39e-6)
 STEEL, ALUMINIUM = Elastic(210e9, 0.3), Elastic(70e9, 0.3)
 SHELL = 70e-3  # outer radius of the connecting rod's big end; the blocks of the other bearings are no smaller
 TORQUE = {

@@ -12,7 +12,7 @@ from reynolds.numerics.arrays import Array
 from system.description.gap import Gap
 from system.films.parts import FloatingParts
 from system.films.positions import eccentric, instant_drives
-from system.films.rotor import Rotor, travel
+from system.films.rotor import Rotor, engaged_share, travel
 from system.inputs.sections.fields import Angle, AnyLength, Height, Micrometres, Several, field_type
 from system.inputs.units import Dimension
 
@@ -105,10 +105,8 @@ def touching(gap: Gap, rotor: Rotor, parts: FloatingParts, angle: float, positio
     if position is None:
         return None
     if gap is Gap.PISTON:
-        guide = parts.piston.guide_length
-        engaged = min(rotor.pump.piston.engaged_length - travel(rotor, angle), guide)
         case = position[2:]
-        inner = case + (position[:2] - case) * engaged / guide
+        inner = case + (position[:2] - case) * engaged_share(rotor, parts.piston.guide_length, np.array([angle]))
         least = rotor.pump.piston.radial_clearance - max(np.hypot(*inner), np.hypot(*case))
     else:
         least = position[0] - np.hypot(*position[1:])

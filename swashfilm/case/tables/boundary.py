@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import Annotated, Any
@@ -58,32 +58,48 @@ def read_boundaries(top: Table, reading: Reading, mesh: CaseMesh | None, level: 
     return found
 
 
-def check_boundaries(top: Table, mesh: CaseMesh, boundary: Boundaries, cavitation: Cavitation, level: float) -> None:
-    """List faults of boundaries that contradict each other or the cavitation pressure (Pa)."""
+def check_boundaries(
+    top: Table, mesh: CaseMesh, boundary: Boundaries, cavitation: Cavitation, level: float, times: Sequence[float]
+) -> None:
+    """List faults of boundaries that contradict each other or, at some of the times (s), the cavitation pressure (Pa).
+
+    A fault names the first such time.
+    """
     _check_shared_edges(top, mesh, boundary)
     for name, stated in boundary.items():
-        assert stated.pressure is not None
         if stated.film_fraction < 1.0:
-            _check_starved(top, name, stated, cavitation, level)
-        elif cavitation is not Cavitation.NONE and stated.pressure.at_time(0.0) < level:
+            _check_starved(top, name, stated, cavitation, level, times)
+        elif cavitation is not Cavitation.NONE and (below := _first(stated, times, lambda value: value < level)):
             top.fault(
                 f"boundary.{name}.pressure",
-                str(stated.pressure),
+                below,
                 f"at least the cavitation pressure, {format_quantity(level, Dimension.PRESSURE)}",
                 "lower film.cavitation_pressure, or cavitation = 'none'",
             )
 
 
-def _check_starved(top: Table, name: str, stated: BoundarySection, cavitation: Cavitation, level: float) -> None:
+def _first(stated: BoundarySection, times: Sequence[float], wrong: Callable[[float], bool]) -> str:
+    """Return the first wrong pressure of a boundary over times (s) in words, empty where none is wrong."""
     assert stated.pressure is not None
+    for time in times:
+        if wrong(value := stated.pressure.at_time(time)):
+            if isinstance(stated.pressure, Uniform):
+                return str(stated.pressure)
+            return f"{stated.pressure}, {format_quantity(value, Dimension.PRESSURE, digits=5)} at {time:.4g} s"
+    return ""
+
+
+def _check_starved(
+    top: Table, name: str, stated: BoundarySection, cavitation: Cavitation, level: float, times: Sequence[float]
+) -> None:
     fraction = f"{stated.film_fraction:g}"
     if cavitation is not Cavitation.JFO:
         found = f"{fraction} with cavitation = '{cavitation.value}'"
         top.fault(f"boundary.{name}.film_fraction", found, "1, or cavitation = 'jfo', which transports it")
-    elif stated.pressure.at_time(0.0) != level:
+    elif other := _first(stated, times, lambda value: value != level):
         top.fault(
             f"boundary.{name}.pressure",
-            f"{stated.pressure} with film_fraction = {fraction}",
+            f"{other} with film_fraction = {fraction}",
             f"the cavitation pressure, {format_quantity(level, Dimension.PRESSURE)}: more needs a full film",
         )
 

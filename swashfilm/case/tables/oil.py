@@ -167,8 +167,9 @@ class FilmOilSection:
         Raises InputError where the law of the viscosity over temperature does not hold.
         """
         if self.kinematic is None or self.density is None:
-            cooler = (self.temperature or 0.0) - temperature
-            return np.asarray(viscosity * np.exp((self.temperature_coefficient or 0.0) * cooler))
+            assert self.temperature is not None
+            assert self.temperature_coefficient is not None
+            return np.asarray(viscosity * np.exp(self.temperature_coefficient * (self.temperature - temperature)))
         return walther(temperature, Oil(*self.kinematic, self.density, 1.0, 1.0)) * self.density
 
 

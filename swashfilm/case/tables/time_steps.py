@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from typing import Annotated
 
 from reynolds.errors import InputError
+from reynolds.solve.transient import equal_steps
 from system.inputs.sections.fields import Limits, Positive
 from system.inputs.sections.reader import table_section
 from system.inputs.toml_table import Table
@@ -30,13 +31,18 @@ class TimeStepsSection:
 
     @property
     def steps(self) -> int:
-        """Number of steps; the last one ends at `end`."""
-        return max(1, round(self.end / self.step))
+        """Number of steps, none longer than stated; the last one ends at `end`."""
+        return equal_steps(self.end, self.step)
 
     @property
     def step_taken(self) -> float:
         """The step that divides the duration evenly, s."""
         return self.end / self.steps
+
+    @property
+    def output_times(self) -> list[float]:
+        """Times (s) of the start and of the written films."""
+        return [self.end * number / self.outputs for number in range(self.outputs + 1)]
 
     def number(self, time: float) -> int:
         """Return number of whole steps up to a time (s)."""

@@ -22,7 +22,8 @@ Tables = Mapping[str, Mapping[str, Any]]
 Answered = Callable[[str, list[Fault]], Tables]
 """Function from an answer to the entries of a pump file, by table and key; faults of the answer are added."""
 CIRCUITS = [circuit.value for circuit in Circuit]
-_SHORT_GRADE = re.compile(r"(?:ISO )?(?:VG ?)?(\d+)", re.IGNORECASE)
+_SHORT_GRADE = re.compile(r"(?:(?:ISO )?(?:VG ?)?|(?:HL|HLP|HLPD|HM)[ -]?)(\d+)", re.IGNORECASE)
+"""Names of mineral oils whose grade is ISO 3448's: DIN 51524-1, -2 and ISO 6743-4 (HVLP and HV have a higher index)."""
 
 
 @dataclass(frozen=True)
@@ -95,7 +96,7 @@ def _at_rated(path: str, key: str) -> Answered:
 
 
 def _oil(text: str, faults: list[Fault]) -> Tables:
-    """Return [oil] of an ISO grade, also "VG 46" or "46", or of the viscosities at 40 and 100 degC, with a comma."""
+    """Return [oil] of an ISO grade, also "HLP 46" or "46", or of the viscosities at 40 and 100 degC, with a comma."""
     parts = [part.strip() for part in text.split(",")]
     if len(parts) == len(GRADE_KEYS):
         reading = Reading(faults=faults)

@@ -23,6 +23,9 @@ if TYPE_CHECKING:
     from reynolds.numerics.arrays import Array
 
 CSV_DIGITS = 8
+"""Significant digits of a number in a CSV."""
+RESULTS = "results.nc"
+"""Arrays of a run in its folder."""
 HEADS = 200_000
 """Bytes of names, attributes and the tree of a NetCDF file, at most."""
 

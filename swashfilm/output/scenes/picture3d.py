@@ -40,11 +40,6 @@ def pressure_field() -> PictureField:
     return picture_field("film pressure", "Pa")
 
 
-def thickness_field() -> PictureField:
-    """Return the thickness of films."""
-    return picture_field("film thickness", "m")
-
-
 @dataclass(frozen=True)
 class Solid:
     """A VTU file of a body, its colour and its opacity."""

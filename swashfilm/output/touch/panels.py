@@ -15,6 +15,10 @@ if TYPE_CHECKING:
 PIXELS = 104.0
 """Pixels per inch of a figure, so that ten inches fill the page."""
 LEAST_HEIGHT = 240.0
+BUTTONS = 30
+"""Pixels above titles for the buttons of a figure, which cover what is below them."""
+TITLES = (("left", 0.0), ("center", 0.5), ("right", 1.0))
+"""Places of a panel's titles along its width."""
 PLAIN = ("ScalarFormatter", "LogFormatterSciNotation", "NullFormatter")
 """Formatters of numbers; the labels of others are kept as they are."""
 
@@ -69,9 +73,11 @@ def _titled(axes: Any, shown: Sequence[Any], letter: str) -> Any:
 def layout_of(figure: Figure, panels: Sequence[Panel]) -> dict[str, Any]:
     """Return axes, titles and texts of a figure, its height in pixels, and its width that of the page."""
     width, height = figure.get_size_inches()
+    titled = any(panel.axes.get_title(where) for panel in panels for where, _ in TITLES)
+    above = BUTTONS if titled else 0
     layout: dict[str, Any] = {
-        "height": max(LEAST_HEIGHT, PIXELS * height * 10.0 / max(width, 8.0)),
-        "margin": {"l": 0, "r": 0, "t": 0, "b": 0, "autoexpand": False},
+        "height": max(LEAST_HEIGHT, PIXELS * height * 10.0 / max(width, 8.0)) + above,
+        "margin": {"l": 0, "r": 0, "t": above, "b": 0, "autoexpand": False},
         "hovermode": "closest",
         "barmode": "overlay",
         "uirevision": "kept",
@@ -125,7 +131,7 @@ def tick_texts(axis: Any) -> list[str]:
 def _texts(panel: Panel) -> Iterator[dict[str, Any]]:
     """Yield titles and texts of a panel as annotations."""
     axes = panel.axes
-    for where, at in (("left", 0.0), ("center", 0.5), ("right", 1.0)):
+    for where, at in TITLES:
         if title := axes.get_title(where):
             place = {"xref": f"{panel.x} domain", "yref": f"{panel.y} domain", "x": at, "y": 1.0, "yanchor": "bottom"}
             yield place | {"text": words(title), "showarrow": False, "xanchor": where, "font": {"size": 12}}

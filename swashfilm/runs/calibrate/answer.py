@@ -41,10 +41,10 @@ def calibrate_answer(
     learnt = [row for row in own if how_far(row) == DETERMINED]
     tiles = [_tile(row) for row in own[:MOST_LEARNT]]
     tiles.append(Tile(f"{len(learnt)} of {len(own)}", "values of the pump determined", "error halved at least"))
-    worst = sorted(_misfits(residuals), key=lambda one: -one[2] / one[3])[:MOST_MISFITS]
+    worst = sorted(_misfits(residuals), key=lambda one: -one[3])[:MOST_MISFITS]
     tiles += [
-        Tile(f"{rms:.2g} {unit}", f"{words}, error of the fit", f"rms; scatter of the meter {scatter:.2g} {unit}")
-        for words, unit, rms, scatter in worst
+        Tile(f"{rms:.2g} {unit}", f"{words}, error of the fit", f"rms; {_scatter_words(unit, rms, pull)}")
+        for words, unit, rms, pull in worst
     ]
     words = (*_fit_words(summary, residuals), *_learnt_words(own, learnt), *_law_words(summary))
     return Answer(tuple(tiles), " ".join(words), picture, CAPTION if picture else "")
@@ -56,20 +56,24 @@ def _tile(row: Row) -> Tile:
 
 
 def _misfits(residuals: Sequence[Row]) -> Iterator[tuple[str, str, float, float]]:
-    """Yield (channel, unit, rms of measured less fitted, rms of its scatter)."""
+    """Yield (channel, unit, rms of measured less fitted, rms of that in multiples of the meter's scatter)."""
     for channel in dict.fromkeys(row["channel"] for row in residuals):
         own = [row for row in residuals if row["channel"] == channel]
         off = np.array([float(row["measured"]) - float(row["fitted"]) for row in own])
-        scatter = np.array([abs(apart / float(row["pull"])) for apart, row in zip(off, own, strict=True) if apart])
-        size = float(np.sqrt(np.mean(scatter**2))) if scatter.size else 1.0
-        yield CHANNELS.get(ChannelName.named(channel), channel), own[0]["unit"], float(np.sqrt(np.mean(off**2))), size
+        rms, pull = (float(np.sqrt(np.mean(one**2))) for one in (off, np.array([float(row["pull"]) for row in own])))
+        yield CHANNELS.get(ChannelName.named(channel), channel), own[0]["unit"], rms, pull
+
+
+def _scatter_words(unit: str, rms: float, pull: float) -> str:
+    """Return the meter's scatter, of which `rms` is `pull` times; readings that are met exactly do not tell it."""
+    return f"scatter of the meter {rms / pull:.2g} {unit}" if pull > 0.0 else "every reading is met exactly"
 
 
 def _fit_words(summary: Mapping[str, Any], residuals: Sequence[Row]) -> Iterator[str]:
     misfits = list(_misfits(residuals))
     met = listed(f"{words} to {rms:.2g} {unit}" for words, unit, rms, _ in misfits)
     yield f"The fitted pump meets {summary['readings']} readings at {summary['points']} points: {met} (rms)."
-    beyond = [f"{words} ({rms / scatter:.1f} times)" for words, _, rms, scatter in misfits if rms > WITHIN * scatter]
+    beyond = [f"{words} ({pull:.1f} times)" for words, _, _, pull in misfits if pull > WITHIN]
     if beyond:
         yield f"Beyond the scatter of its meter is {listed(beyond)}: the model lacks something there."
     else:

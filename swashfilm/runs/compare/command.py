@@ -120,7 +120,7 @@ def _option_faults(options: argparse.Namespace, pumps: Sequence[bool]) -> Iterat
 def _both(
     options: argparse.Namespace, names: tuple[str, str], pumps: Sequence[bool]
 ) -> tuple[Side | SideToSolve, Side | SideToSolve]:
-    """Return both maps; that of a pump has the axes of the other map, or the paper's plan of A.
+    """Return both maps; that of a pump has the axes of the other map, or the usual levels of A.
 
     Raises InputFaults with every fault of both.
     """

@@ -12,21 +12,33 @@ from swashfilm.output.touch.picture import Picture
 from swashfilm.runs.compare.plots import FIRST
 from swashfilm.runs.map.answer import percent
 from swashfilm.runs.map.duty.page import energy_text
-from swashfilm.runs.map.plots import HEADLINE
 from swashfilm.runs.map.slices import place_words
 from system.inputs.shown import ROUND_OFF
 from system.maps.data import LOSSES
+from system.maps.definitions import HEADLINE, agreeing, definition_words
 from system.maps.plan import MapInput
+from system.maps.specific import OF_POWER
+from system.pump.efficiency import EfficiencyDefinition
 
 DIFFERENCE_HEAD = ("", "A, mean", "B, mean", "B - A, mean", "largest B - A", "at", "error of both there")
 EFFICIENCY_HEAD = (
-    "overall efficiency", "A, mean", "B, mean", "B - A, mean", "largest B - A", "at", "error of both there",
+    "definition", "A, mean", "B, mean", "B - A, mean", "largest B - A", "at", "error of both there",
 )  # fmt: skip
 DUTY_HEAD = ("", "A", "B", "B - A", "error of both")
 NOTHING = "no difference"
 """Words for a difference within the error of both."""
 EFFICIENCY = "overall efficiency, "
-_SCALES = {"W": (1e-3, "kW"), "m3/s": (6e4, "L/min"), "1": (100.0, "%"), "N m": (1.0, "N m")}
+SPECIFIC = (
+    "Pumps of two sizes: losses as shares of the shaft power at the same point, torque and flow over displacement"
+)
+_SCALES = {
+    "W": (1e-3, "kW"),
+    "m3/s": (6e4, "L/min"),
+    "1": (100.0, "%"),
+    "N m": (1.0, "N m"),
+    "N m/(m3/rev)": (1e-6, "N m per mL/r"),
+    "rev/s": (0.06, "L/min per mL/r"),
+}
 _POINTS = "percentage points"
 Row = Mapping[str, Any]
 
@@ -49,6 +61,9 @@ def write_compare_page(folder: Path) -> Path:
         efficiency_head=EFFICIENCY_HEAD,
         differences=list(difference_rows(summary)),
         difference_head=DIFFERENCE_HEAD,
+        specific=list(specific_rows(summary)),
+        specific_title=SPECIFIC,
+        sizes=_sizes(summary),
         duty=list(duty_rows(summary)) if summary["duty"] else [],
         duty_head=DUTY_HEAD,
         pictures=pictures,
@@ -115,12 +130,16 @@ def _duty_words(summary: Row) -> Iterator[str]:
     if abs(lost) <= sum(one["error"] for one in losses):
         yield "Over the cycle there is no difference of the energy lost."
         return
-    one, other = (percent(side["efficiency"][HEADLINE.value]["value"]) for side in summary["duty"])
+    means = [side["efficiency"][HEADLINE.value]["value"] for side in summary["duty"]]
+    known = "" if None in means else f"; its mean efficiency is {percent(means[1])} against {percent(means[0])}"
     yield (
         f"Over the cycle B loses {energy_text(abs(lost), 3)} {'more' if lost > 0.0 else 'less'} than A "
-        f"({energy_text(losses[1]['value'])} against {energy_text(losses[0]['value'])}); its mean efficiency is "
-        f"{other} against {one}."
+        f"({energy_text(losses[1]['value'])} against {energy_text(losses[0]['value'])}){known}."
     )
+
+
+def _sizes(summary: Row) -> str:
+    return " and ".join(f"{1e6 * one:.4g} mL/r" for one in summary["displacement_m3_per_rev"])
 
 
 def _share(share: float) -> str:
@@ -128,10 +147,15 @@ def _share(share: float) -> str:
 
 
 def _loss_words(summary: Row) -> Iterator[str]:
-    losses = [row for row in summary["differences"] if row["words"] in LOSSES.values()]
+    names = {name: name for name in LOSSES.values()} | {f"{name}, {OF_POWER}": name for name in LOSSES.values()}
+    rows, unit = summary["differences"], "kW"
+    if summary["specific"]:
+        rows, unit = summary["specific"], f"points of the {OF_POWER.removeprefix('share of the ')}"
+        yield f"The pumps displace {_sizes(summary)}: powers and flows follow the size, shares of the shaft power less."
+    losses = [dict(row) | {"words": names[row["words"]]} for row in rows if row["words"] in names]
     told = sorted((row for row in losses if row["told"]), key=lambda row: -abs(row["other"] - row["one"]))
     if told:
-        named = ", ".join(f"{row['words']} ({_apart(row, row['unit'])} kW)" for row in told[:3])
+        named = ", ".join(f"{row['words']} ({_apart(row, row['unit'])} {unit})" for row in told[:3])
         yield f"The losses that differ most, B less A in the mean: {named}."
     if alike := [row["words"] for row in losses if not row["told"]]:
         yield f"No difference: {', '.join(alike)}."
@@ -153,16 +177,15 @@ def efficiency_rows(summary: Row) -> list[tuple[str, ...]]:
 
     Efficiencies in %, differences in percentage points.
     """
-    shown: dict[tuple[str, ...], list[str]] = {}
-    for row in summary["differences"]:
-        if row["unit"] == "1":
-            cells = (
-                f"{100.0 * row['one']:.1f} %",
-                f"{100.0 * row['other']:.1f} %",
-                *_difference_cells(row, summary, ""),
-            )
-            shown.setdefault(cells, []).append(row["words"].removeprefix(EFFICIENCY))
-    return [("; ".join(words), *cells) for cells, words in shown.items()]
+    named = {f"{EFFICIENCY}{one.label}": one for one in EfficiencyDefinition}
+    shown = {
+        named[row["words"]]: (
+            f"{100.0 * row['one']:.1f} %", f"{100.0 * row['other']:.1f} %", *_difference_cells(row, summary, ""),
+        )
+        for row in summary["differences"]
+        if row["unit"] == "1"
+    }  # fmt: skip
+    return [(definition_words(alike), *cells) for alike, cells in agreeing(shown)]
 
 
 def difference_rows(summary: Row) -> Iterator[tuple[str, ...]]:
@@ -172,6 +195,15 @@ def difference_rows(summary: Row) -> Iterator[tuple[str, ...]]:
         if row["unit"] != "1":
             means = (f"{row[which] * scale:.4g} {unit}" for which in ("one", "other"))
             yield row["words"], *means, *_difference_cells(row, summary, f" {unit}")
+
+
+def specific_rows(summary: Row) -> Iterator[tuple[str, ...]]:
+    """Yield the rows of DIFFERENCE_HEAD of numbers free of the pumps' size, shares in %; none of pumps of one size."""
+    for row in summary["specific"]:
+        scale, unit = _SCALES[row["unit"]]
+        means = (f"{row[which] * scale:.4g} {unit}" for which in ("one", "other"))
+        difference = " points" if row["unit"] == "1" else f" {unit}"
+        yield row["words"], *means, *_difference_cells(row, summary, difference)
 
 
 def _difference_cells(row: Row, summary: Row, unit: str) -> tuple[str, ...]:
@@ -187,7 +219,7 @@ def _difference_cells(row: Row, summary: Row, unit: str) -> tuple[str, ...]:
 
 
 def duty_rows(summary: Row) -> Iterator[tuple[str, ...]]:
-    """Yield (energy, of A, of B, difference, error of both)."""
+    """Yield (energy, of A, of B, difference, error of both), and so the mean efficiency where both have one."""
     one, other = (side["energy_J"] for side in summary["duty"])
     for words in dict.fromkeys([*one, *other]):
         nothing = {"value": 0.0, "error": 0.0}
@@ -200,6 +232,8 @@ def duty_rows(summary: Row) -> Iterator[tuple[str, ...]]:
             energy_text(error, 2),
         )
     efficiency = [side["efficiency"][HEADLINE.value] for side in summary["duty"]]
+    if any(one["value"] is None for one in efficiency):  # of a cycle at standstill, or one that motors
+        return
     apart, error = efficiency[1]["value"] - efficiency[0]["value"], sum(one["error"] for one in efficiency)
     yield (
         "mean overall efficiency (ISO 4409)",

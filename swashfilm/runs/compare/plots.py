@@ -9,10 +9,10 @@ import numpy as np
 from swashfilm.output.figures import figure_of
 from swashfilm.runs.map.contour_levels import difference_levels, efficiency_levels
 from swashfilm.runs.map.panels import LARGE, Panel, panel_figure
-from swashfilm.runs.map.plots import HEADLINE
 from swashfilm.runs.map.slices import Slice, further_slices, held_words, main_slice, shown
 from system.maps.compare import MapComparison
 from system.maps.data import LOSSES
+from system.maps.definitions import HEADLINE
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

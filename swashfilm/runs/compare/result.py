@@ -11,9 +11,11 @@ from swashfilm.runs.compare.page import (
     DIFFERENCE_HEAD,
     DUTY_HEAD,
     EFFICIENCY_HEAD,
+    SPECIFIC,
     difference_rows,
     duty_rows,
     efficiency_rows,
+    specific_rows,
 )
 
 if TYPE_CHECKING:
@@ -43,6 +45,8 @@ class CompareRun(Result):
         tables: list[Table] = [(f"{sides}; means over the common levels", [DIFFERENCE_HEAD, *difference_rows(summary)])]
         if efficiencies := efficiency_rows(summary):
             tables.insert(0, ("Differences in percentage points", [EFFICIENCY_HEAD, *efficiencies]))
+        if summary["specific"]:
+            tables.append((SPECIFIC, [DIFFERENCE_HEAD, *specific_rows(summary)]))
         if summary["duty"]:
             tables.append(("Over the cycle", [DUTY_HEAD, *duty_rows(summary)]))
         return tables

@@ -7,21 +7,24 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from swashfilm.formats.versions import headed
 from swashfilm.output.page import keep_pictures
 from swashfilm.output.run_folder import write_json
 from swashfilm.output.tables import write_csv
 from swashfilm.runs.compare.page import write_compare_page
 from swashfilm.runs.compare.plots import compare_pictures
-from swashfilm.runs.map.duty.run import duty_summary, known_error
+from swashfilm.runs.map.duty.run import cycle_warnings, duty_summary, known_error
 from swashfilm.runs.map.files import MAP, read_map
 from swashfilm.runs.map.run import MapCase, solve_map, worth_starting
 from system.inputs.shown import shown_in
-from system.maps.compare import Difference, Extreme, compare
+from system.maps.compare import Difference, Extreme, MapComparison, compare
 from system.maps.data import MapData
 from system.maps.duty import Cycle, duty
 from system.maps.interpolation import MapError, MapInterpolant
 from system.maps.plan import MapAxis, MapInput
+from system.maps.rating import rating_warnings
 from system.work.processes import process_pool
 from system.work.progress import Report
 
@@ -115,13 +118,15 @@ def run_compare(both: Sides, cycle: Cycle | None, folder: Path) -> dict[str, Any
         "given": [side.given for side in both],
         "pumps": [side.data.name for side in both],
         "solvers": [side.data.words for side in both],
-        "warnings": list(fidelity_warnings(both)),
+        "warnings": [*fidelity_warnings(both), *_rating_warnings(found, names, cycle)],
         "box": [
             {"words": axis.input.words, "from": axis.input.text(axis.values[0]), "to": axis.input.text(axis.values[-1])}
             for axis in found.one.axes
         ],
         "same_levels": found.one.axes == both[0].data.axes == both[1].data.axes,
         "differences": [_row(one) for one in found.differences],
+        "displacement_m3_per_rev": [_displacement(data) for data in (found.one, found.other)],
+        "specific": [_row(one) for one in found.specific],
         "duty": [] if cycle is None else [_duty(side, cycle) for side in both],
         "pictures": list(pictures),
     }
@@ -141,6 +146,19 @@ def fidelity_warnings(both: Sides) -> Iterator[str]:
             f"fidelities_differ: A is {one}, B is {other} (limit: one fidelity for both): differences contain those "
             "between the fidelities, not only the pumps; solve both maps by one fidelity"
         )
+
+
+def _rating_warnings(found: MapComparison, names: tuple[str, str], cycle: Cycle | None) -> Iterator[str]:
+    """Yield the warnings of points, and of rows of the cycle, beyond the rating of either pump."""
+    for letter, name, data in zip("AB", names, (found.one, found.other), strict=True):
+        said = f"{letter}, {name}, "
+        yield from rating_warnings(data, data.grid, "points", said)
+        yield from cycle_warnings(data, cycle, said) if cycle is not None else ()
+
+
+def _displacement(data: MapData) -> float:
+    """Return the largest geometric displacement of a map, m3/rev."""
+    return float(np.nanmax(data.values["geometric_displacement"]))
 
 
 def _row(one: Difference) -> dict[str, Any]:

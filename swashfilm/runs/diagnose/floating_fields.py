@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swashfilm.output.data.files import read_netcdf
+from swashfilm.output.data.files import RESULTS, read_netcdf
 from swashfilm.output.data.gap_names import TITLES
 from swashfilm.output.figures import figure_of
 from swashfilm.output.scenes.field_maps import draw_map
@@ -18,8 +18,6 @@ from system.inputs.shown import titled
 if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
-
-RESULTS = "results.nc"
 
 
 def floating_pictures(folders: Sequence[Path], names: Sequence[str]) -> dict[str, Figure]:

@@ -12,13 +12,13 @@ from system.inputs.units import Dimension, unit_scale
 from system.maps.data import MapData
 from system.maps.plan import MapAxis
 from system.maps.point import GAPS, columns
+from system.pump.bench import EFFICIENCIES
 from system.pump.efficiency import EfficiencyDefinition
 
 TABLES = (
     "shaft_torque", "delivery_flow", "inlet_flow", "drain_flow", "loss", *(f"film_least.{gap}" for gap in GAPS),
 )  # fmt: skip
 """Numbers that a model of the pump in another program reads: each is a table of its own there."""
-EFFICIENCIES = ("overall", "volumetric", "hydromechanical")
 DIMENSIONS = {
     "rad/s": Dimension.ANGULAR_SPEED, "Pa": Dimension.PRESSURE, "K": Dimension.TEMPERATURE, "m": Dimension.LENGTH,
     "N m": Dimension.TORQUE, "m3/s": Dimension.VOLUME_FLOW, "W": Dimension.POWER, "m3/rev": Dimension.DISPLACEMENT,

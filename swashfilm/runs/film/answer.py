@@ -76,7 +76,7 @@ def _load_words(summary: Mapping[str, Any]) -> Iterator[str]:
     else:
         carried, required = (amount(summary[f"{of}_load_N"], Dimension.FORCE) for of in ("carried", "required"))
         yield f"At the given position the film with its pockets carries {carried} of {required}."
-    if "load_of_time_max_N" in summary and "bearing_load_N" not in summary:
+    if "load_of_time_max_N" in summary:
         low, high = (amount(summary[f"load_of_time_{end}_N"], Dimension.FORCE) for end in ("min", "max"))
         yield f"Over the whole time the load lies between {low} and {high}."
 

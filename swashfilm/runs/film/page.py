@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 CAPTION = "Maps of the film over its plane; pressures are gauge"
-HISTORY = ("load_N", "pressure_max_Pa", "film_thickness_min_m", "temperature_max_K")
+HISTORY = ("bearing_load_N", "load_N", "pressure_max_Pa", "film_thickness_min_m", "temperature_max_K")
 
 
 def write_film_page(folder: Path) -> Path:
@@ -78,6 +78,8 @@ def history_picture(history: Path) -> Figure:
     """Draw load, largest pressure, least film and temperature (if any) over time, from history.csv."""
     steps = read_columns(history)
     shown = [key for key in HISTORY if named(key)[0] in steps]
+    if "bearing_load_N" in shown:  # the integral over the unrolled plane is no load of a bearing
+        shown.remove("load_N")
     figure = figure_of(8.0, 2.2 * len(shown))
     for axes, key in zip(figure.subplots(len(shown), 1, sharex=True), shown, strict=True):
         axes.plot(steps["time"], shown_of(key).of(steps[named(key)[0]]))

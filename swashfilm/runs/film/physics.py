@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from reynolds.laws.contact import boundary_shear, contact_area, contact_pressure, lambda_ratio
+from reynolds.laws.contact import contact_area, lambda_ratio
 from reynolds.laws.roughness import beyond_range
+from reynolds.solve.rubbing import rubbing
 from swashfilm.output.data.files import column_of, write_columns
 from swashfilm.runs.film.solve.transient import Moment
 
@@ -31,14 +33,23 @@ def physics_summary(study: FilmStudy) -> dict[str, Any]:
         found |= {
             "time_s": steps[-1].time,
             "time_steps": len(steps),
-            "load_of_time_max_N": max(step.loads.load + step.loads.contact_load for step in steps),
-            "load_of_time_min_N": min(step.loads.load + step.loads.contact_load for step in steps),
+            "load_of_time_max_N": max(step.supported for step in steps),
+            "load_of_time_min_N": min(step.supported for step in steps),
             "pressure_of_time_max_Pa": max(step.loads.pressure_max for step in steps),
             "film_thickness_of_time_min_m": min(step.loads.film_thickness_min for step in steps),
             "mass_balance_error_of_time": max(step.loads.mass_balance_error for step in steps),
         }
         if study.heat:
-            found["temperature_of_time_max_K"] = max(step.temperature_max or 0.0 for step in steps)
+            found["temperature_of_time_max_K"] = max(_hottest(steps))
+    return found
+
+
+def _hottest(history: Sequence[Moment]) -> list[float]:
+    """Return the highest temperature (K) of a warm film at each step."""
+    found = []
+    for step in history:
+        assert step.temperature_max is not None
+        found.append(step.temperature_max)
     return found
 
 
@@ -66,18 +77,15 @@ def _rough_summary(study: FilmStudy) -> dict[str, Any]:
         "beyond_flow_factors_area_fraction": beyond_range(film.thickness, problem.surface).fraction,
     }
     if problem.asperities is not None:
-        area = problem.space.area
-        pressed = contact_pressure(problem.asperities, film.thickness).value
-        sheared = boundary_shear(problem.asperities, pressed).value
+        area, gap = problem.space.area, study.solution.gap
+        contact = rubbing(film, problem.asperities, gap, area.shape)
         found["contact_load_N"] = study.loads.contact_load
         both = study.loads.contact_load + study.loads.load
         found["carried_load_N"] = both
         found["contact_load_fraction"] = study.loads.contact_load / both if both > 0.0 else None
-        found["contact_pressure_max_Pa"] = float(np.max(pressed))
-        found["contact_friction_N"] = float(np.sum(sheared * area))
-        found["contact_area_fraction"] = float(
-            np.sum(contact_area(problem.asperities, film.thickness).value * area) / area.sum()
-        )
+        found["contact_pressure_max_Pa"] = float(np.max(contact.pressure))
+        found["contact_friction_N"] = float(np.sum(contact.friction * area))
+        found["contact_area_fraction"] = float(np.sum(contact_area(problem.asperities, gap).value * area) / area.sum())
     return found
 
 
@@ -96,8 +104,12 @@ def history_columns(history: Sequence[Moment]) -> dict[str, list[float]]:
         ("mass_balance_error", lambda loads: loads.mass_balance_error),
     ):
         columns[key] = [of(step.loads) for step in history]
+    bearings = [step.bearing for step in history if step.bearing]
+    if bearings:
+        columns["bearing_load_N"] = [one.size for one in bearings]
+        columns["attitude_angle_deg"] = [math.degrees(one.attitude) for one in bearings]
     if history[0].temperature_max is not None:
-        columns["temperature_max_K"] = [float(step.temperature_max or 0.0) for step in history]
+        columns["temperature_max_K"] = _hottest(history)
     for name in history[0].loads.flow:
         columns[f"flow_m3_per_s.{name}"] = [step.loads.flow[name] for step in history]
     return columns

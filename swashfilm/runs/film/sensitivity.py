@@ -26,7 +26,8 @@ PER_AREA_AND_FILM = 1e-12  # of 1/m3 in 1/(mm2 um)
 def sensitivity_summary(study: FilmStudy) -> dict[str, Any]:
     """Return the derivatives of each output by the parameters of the film's shape, SI, units in keys.
 
-    by_KEY: change of the output per unit of the parameter; weakly_active_unknowns: see the warning of that name.
+    by_KEY: change of the output per unit of the parameter; left_out: why a parameter has no derivative;
+    weakly_active_unknowns: see the warning of that name.
     """
     found = study.sensitivity
     if found is None:
@@ -42,6 +43,7 @@ def sensitivity_summary(study: FilmStudy) -> dict[str, Any]:
     return {
         "sensitivity": {
             "kept": found.kept, "weakly_active_unknowns": found.weak, "parameters": parameters, "outputs": outputs,
+            "left_out": dict(found.left_out),
         }
     }  # fmt: skip
 
@@ -82,6 +84,9 @@ def _rows(found: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
             value, slope = found["parameters"].get(parameter), factor * in_si
             change = "" if not value else f"{0.01 * value * slope:.4g} {unit}"
             yield words, *_derivative(parameter, slope, unit), change
+    for parameter, why in found.get("left_out", {}).items():
+        words = parameter.removeprefix(CONSTANT) if parameter.startswith(CONSTANT) else named(parameter)[0]
+        yield "every output", words, f"left out: {why}", ""
 
 
 def _derivative(parameter: str, slope: float, unit: str) -> tuple[str, str]:

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from reynolds.problem import FilmSolution
+from reynolds.solve.bearing import BearingLoad, bearing_load
 from reynolds.solve.export import vertex_fields
 from reynolds.solve.loads import point_fields
 from swashfilm.case.tables.film import Geometry
 from swashfilm.formats.versions import headed
 from swashfilm.runs.film.physics import physics_summary, temperatures
 from swashfilm.runs.film.sensitivity import sensitivity_fields, sensitivity_summary
-from swashfilm.runs.film.solve.bearing import bearing_summary
 from swashfilm.runs.film.solve.gap import gap_summary
 from swashfilm.runs.film.solve.loaded import load_summary
 from swashfilm.runs.film.solve.study import FilmStudy
@@ -32,7 +32,7 @@ def film_summary(study: FilmStudy) -> dict[str, Any]:
     Forces and moments as in `reynolds.solve.loads.Loads`; leakage_flow is the total flow out of the film.
     """
     solution, integrals = study.solution, study.loads
-    bearing = bearing_summary(solution) if study.geometry is Geometry.CYLINDER else {}
+    bearing = _bearing(bearing_load(solution)) if study.geometry is Geometry.CYLINDER else {}
     supported = bearing.get("bearing_load_N", integrals.load + integrals.contact_load)
     return {
         **headed("film"),
@@ -67,6 +67,10 @@ def film_summary(study: FilmStudy) -> dict[str, Any]:
         **sensitivity_summary(study),
         "warnings": film_warnings(study),
     }
+
+
+def _bearing(load: BearingLoad) -> dict[str, float]:
+    return {"bearing_load_N": load.size, "attitude_angle_deg": float(np.degrees(load.attitude))}
 
 
 def natural_sizes(solution: FilmSolution) -> dict[str, float]:

@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reynolds.laws.contact import boundary_shear, contact_pressure, lambda_ratio
+from reynolds.laws.contact import lambda_ratio
 from reynolds.laws.fluid import isoviscous
 from reynolds.laws.roughness import beyond_range
 from reynolds.problem import Cavitation, FilmSolution
 from reynolds.solve.loads import dissipated
+from reynolds.solve.rubbing import rubbing
 from swashfilm.runs.film.solve.gap import gap_warnings
 from system.inputs.shown import pressure_text
 
@@ -120,21 +121,13 @@ def _least_rise(study: FilmStudy) -> float:
     solution = study.solution
     area, film = solution.problem.space.area, solution.film
     driven, sliding = dissipated(solution)
-    heat = float(np.sum(driven + sliding)) - _rubbing(solution)
+    # Heat of the contacts flows into the walls.
+    contact = rubbing(film, solution.problem.asperities, solution.gap, area.shape)
+    heat = float(np.sum(driven + sliding)) - float(np.sum(contact.heat * area))
     mean = float(np.sum(film.thickness * area)) / float(area.sum())
     by_flow = HEAT_CAPACITY * study.loads.throughput
     by_walls = 12.0 * CONDUCTIVITY * float(area.sum()) / mean
     return heat / (by_flow + by_walls)
-
-
-def _rubbing(solution: FilmSolution) -> float:
-    """Return the heat of the contacts, W, which flows into the walls."""
-    asperities, film = solution.problem.asperities, solution.film
-    if asperities is None:
-        return 0.0
-    (u1, v1), (u2, v2) = film.velocity_moving, film.velocity_fixed
-    sheared = boundary_shear(asperities, contact_pressure(asperities, film.thickness).value).value
-    return float(np.sum(sheared * np.hypot(u1 - u2, v1 - v2) * solution.problem.space.area))
 
 
 def thinned_by(study: FilmStudy) -> int:

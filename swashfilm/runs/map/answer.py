@@ -9,9 +9,9 @@ import numpy as np
 
 from swashfilm.output.answer import Answer, Tile
 from swashfilm.output.touch.picture import Picture
-from swashfilm.runs.map.plots import HEADLINE
 from swashfilm.runs.map.slices import held_levels, place_of
 from system.maps.data import MapData
+from system.maps.definitions import HEADLINE
 from system.maps.interpolation import MapError
 
 FLOW = 6e4

@@ -13,11 +13,12 @@ from swashfilm.console.command import Command
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.inputs import COMMAND_LINE, expect, given_text, option_value, whole
 from swashfilm.console.settings import add_set_option, set_values
-from swashfilm.console.terminal import show, show_result
+from swashfilm.console.terminal import show, show_at_once, show_result
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 
 if TYPE_CHECKING:
     from swashfilm.runs.map.run import MapCase
+    from system.description.pump import PumpDescription
     from system.maps.plan import MapAxis, MapPlan
     from system.work.tasks import Executor
 
@@ -42,7 +43,9 @@ FIDELITIES = (Fidelity.LUMPED, Fidelity.FIXED, Fidelity.FLOATING, Fidelity.TABLE
 SOLVED = (Fidelity.FIXED.value, Fidelity.FLOATING.value)
 """Fidelities that solve films."""
 WORTH_TELLING = 120.0
-"""Seconds of processor time above which the command prints an estimate."""
+"""Seconds of processor time above which the command says what it will take."""
+MANY = 5000
+"""Points whose check alone takes more than a second."""
 PLANS = ("paper", "point")
 
 
@@ -54,7 +57,8 @@ def add_map_options(command: argparse.ArgumentParser) -> None:
     add_set_option(command)
     command.add_argument(
         "--plan", metavar=f"{{{','.join(PLANS)}}}", default="paper",
-        help="levels of axes that are not stated: the paper's 112 points (paper), or the pump's own point (point)",
+        help="levels of axes that are not stated: the paper's 112 points in shares of the rated speed and pressure "
+        "(paper), or the pump's own point (point)",
     )  # fmt: skip
     command.add_argument(
         "--fidelity", metavar=f"{{{','.join(one.value for one in FIDELITIES)}}}", default=Fidelity.FLOATING.value,
@@ -88,14 +92,31 @@ def run_map_command(options: argparse.Namespace) -> int:
         show(f"{asked.points_words}: about {asked.cost / 60.0:.0f} min of processor time; --resume continues")
     name = asked.plan.pump.name
     with (
-        map_executor(options, asked) as executor,
         run_folder(f"map-{name}", options.output, workbook=options.excel) as folder,
-        progress(len(asked.plan.points), f"map {name}") as report,
+        progress(asked.plan.size, f"map {name}") as report,
     ):
-        run_map(asked, folder, executor, report)
+        try:
+            # Within the folder: after Ctrl-C the processes end the points they are at, and keep them there.
+            with map_executor(options, asked) as executor:
+                run_map(asked, folder, executor, report)
+        except KeyboardInterrupt:
+            raise _stopped(asked, folder) from None
         found = MapRun.opened(folder)
     show_result(found, folder, before=early)
     return ended(found.summary)
+
+
+def _stopped(asked: MapCase, folder: Path) -> KeyboardInterrupt:
+    """Return the interruption of a map: of one without a finished point it says so, and how long a point takes."""
+    from swashfilm.output.run_folder import Interrupted
+    from system.work.kept_results import POINTS
+
+    if any((folder / POINTS).glob("*.json")):
+        return KeyboardInterrupt()
+    if asked.by_table:
+        return Interrupted(None, "solved points of the response table are kept; the same command continues from them")
+    takes = f"one takes about {asked.point_seconds:.3g} s of processor time"
+    return Interrupted(None, f"no point is finished, {takes}; nothing was kept, and the same command starts again")
 
 
 @contextmanager
@@ -122,18 +143,20 @@ def map_case(options: argparse.Namespace, axes: Sequence[MapAxis] | None = None)
     """
     from swashfilm.console.floating_options import floating_options
     from swashfilm.runs.map.run import MapCase
-    from system.maps.plan import map_plan
+    from system.maps.plan import MOST_POINTS, map_plan
     from system.pump_file.file import load_pump
 
     faults = _word_faults(options)
     stated = set_values(options.set, faults)
-    axes = stated_axes(options, faults) if axes is None else axes
+    own_axes = stated_axes(options, faults)
     expect(options.pump, "pump", "film")
     try:
         pump = load_pump(options.pump, stated)
     except InputFaults as reason:
         raise InputFaults(reason.source, [*faults, *reason.faults], reason.lines) from None
-    plan = map_plan(pump, axes)
+    plan = map_plan(pump, with_usual(options.plan, pump, own_axes) if axes is None else axes)
+    if MANY < plan.size <= MOST_POINTS:
+        show_at_once(f"{plan.size} points: each is checked before the first is solved")
     faults += [*by_option(plan.checked().faults), *_solver_faults(options, plan)]
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
@@ -145,11 +168,11 @@ def map_case(options: argparse.Namespace, axes: Sequence[MapAxis] | None = None)
 
 
 def stated_axes(options: argparse.Namespace, faults: list[Fault]) -> list[MapAxis]:
-    """Return the axes of --plan, replaced by the stated ones; add faults to `faults`."""
+    """Return the axes that the command line states; add faults to `faults`."""
     from swashfilm.console.levels import map_axis
-    from system.maps.plan import MapInput, paper_axes
+    from system.maps.plan import MapInput
 
-    axes = {axis.input: axis for axis in paper_axes()} if options.plan == "paper" else {}
+    axes = []
     for option, (name, example, _) in LEVELS.items():
         text = option_value(options, option)
         if text is None:
@@ -158,8 +181,16 @@ def stated_axes(options: argparse.Namespace, faults: list[Fault]) -> list[MapAxi
         if isinstance(found, Fault):
             faults.append(found)
         else:
-            axes[found.input] = found
-    return list(axes.values())
+            axes.append(found)
+    return axes
+
+
+def with_usual(plan: str, pump: PumpDescription, stated: Sequence[MapAxis]) -> list[MapAxis]:
+    """Return the axes of --plan for a pump, replaced by the stated ones."""
+    from system.maps.usual_levels import usual_axes
+
+    usual = {axis.input: axis for axis in usual_axes(pump)} if plan == "paper" else {}
+    return list((usual | {axis.input: axis for axis in stated}).values())
 
 
 def by_option(found: Sequence[Fault]) -> Iterator[Fault]:
@@ -228,7 +259,7 @@ def _solver_faults(options: argparse.Namespace, plan: MapPlan) -> Iterator[Fault
     asked = MapCase(plan, fidelity, direct=options.direct)
     levels = len(plan.axes[list(MapInput).index(MapInput.INLET_PRESSURE)].values)
     if levels > 1 and (asked.by_table or fidelity is Fidelity.TABLE):
-        seconds = POINT_COST.get(fidelity, POINT_COST[Fidelity.FLOATING]) * len(plan.points)
+        seconds = POINT_COST.get(fidelity, POINT_COST[Fidelity.FLOATING]) * plan.size
         yield Fault(
             "--inlet-pressures", f"{levels} levels; a response table holds one",
             "one inlet pressure per map, --fidelity lumped, or --direct",

@@ -9,20 +9,20 @@ from typing import Any
 import numpy as np
 
 from reynolds.numerics.arrays import Array
+from swashfilm.output.data.files import CSV_DIGITS
 from swashfilm.output.data.gap_names import TITLES
 from swashfilm.output.touch.explorer import Control, Explorer
 from swashfilm.output.touch.packing import short
 from swashfilm.output.touch.traces import scale_of
 from swashfilm.runs.map.files import PARTS
-from swashfilm.runs.map.plots import HEADLINE, shared_fields
+from swashfilm.runs.map.plots import shared_fields
 from system.inputs.shown import shown_in, title_in, titled
 from system.maps.data import MapData
+from system.maps.definitions import HEADLINE
 from system.maps.interpolation import weights
 from system.maps.plan import MapAxis, MapInput, reading_levels
 from system.pump.efficiency import EfficiencyDefinition
 
-CSV_DIGITS = 8
-"""Significant digits of a solved number, those of map.csv."""
 FINE = 41
 """Points along an axis of the interpolated field."""
 HEIGHT = 520  # pixels

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import tomllib
 from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 from importlib.metadata import version
@@ -13,6 +14,7 @@ import numpy as np
 
 from swashfilm.output.data.files import Column, read_netcdf, write_columns, write_netcdf
 from system.inputs.faults import Fault, InputFaults, nearest_path, one_line
+from system.inputs.units import Dimension, parse_quantity
 from system.maps.data import MapData, best_points, objects
 from system.maps.interpolation import MapError
 from system.maps.plan import MapAxis, MapInput
@@ -182,7 +184,17 @@ def map_of(dataset: xarray.Dataset) -> MapData:
         status=objects([str(text) for text in dataset["status"].values.flat], shape),
         reason=objects([str(text) for text in dataset["reason"].values.flat], shape),
         warnings=objects(warnings, shape),
+        rated=_rated(str(dataset.attrs["resolved_toml"])),
     )
+
+
+def _rated(resolved: str) -> dict[MapInput, float]:
+    """Return the rated speed and pressure of a resolved pump file, SI."""
+    pump = tomllib.loads(resolved)["pump"]
+    return {
+        MapInput.SPEED: parse_quantity(pump["rated_speed"], Dimension.ANGULAR_SPEED),
+        MapInput.PRESSURE: parse_quantity(pump["rated_pressure"], Dimension.PRESSURE),
+    }
 
 
 def _error(dataset: xarray.Dataset) -> MapError | None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +15,7 @@ from swashfilm.runs.map.film_plots import film_pictures
 from swashfilm.runs.map.plots import definition_pictures, further_pictures, loss_pictures, main_picture
 from swashfilm.runs.map.slices import MOST_PANELS, held_levels, third_input, varied
 from system.maps.data import MapData
+from system.maps.definitions import BY_NAME, agreeing, definition_words
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -100,7 +100,8 @@ def axis_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     if summary["loss"]:
         loss = summary["loss"]
         yield "loss (shaft power minus p Q)", f"{loss['least_W'] * 1e-3:.3g} .. {loss['largest_W'] * 1e-3:.4g} kW"
-    yield "largest energy balance error", f"{100.0 * summary['energy_balance_error_max']:.2g} % of the shaft power"
+    if summary["energy_balance_error_max"] is not None:
+        yield "largest energy balance error", f"{100.0 * summary['energy_balance_error_max']:.2g} % of the shaft power"
     if summary["seconds_a_point"] is not None:
         one = f"{summary['seconds_a_point']:.2g} s of processor time per point"
         yield "computing time", f"{one}, {summary['wall_s']:.3g} s in total with {summary['workers']} at a time"
@@ -109,13 +110,11 @@ def axis_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
 def best_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
     """Yield (definitions, efficiency, point, formulas) of each best point; equal ones together."""
 
-    def shown(best: Mapping[str, Any]) -> tuple[str, str]:
-        return f"{100.0 * best['overall']:.2f} %", best["at"]
-
-    for (overall, at), alike in groupby(sorted(summary["best"], key=shown), shown):
-        listed = list(alike)
-        formulas = dict.fromkeys(overall_formula(one["formula"]) for one in listed)
-        yield "; ".join(one["label"] for one in listed), overall, at, "; ".join(formulas)
+    best = {BY_NAME[one["definition"]]: one for one in summary["best"]}
+    shown = {name: (f"{100.0 * one['overall']:.2f} %", one["at"]) for name, one in best.items()}
+    for alike, cells in agreeing(shown):
+        formulas = dict.fromkeys(overall_formula(best[one]["formula"]) for one in alike)
+        yield definition_words(alike), *cells, "; ".join(formulas)
 
 
 def displacement_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:

@@ -25,14 +25,13 @@ from swashfilm.runs.map.slices import (
 )
 from system.inputs.shown import titled
 from system.maps.data import MapData
+from system.maps.definitions import HEADLINE
 from system.maps.plan import MapInput, reading_levels
 from system.pump.efficiency import EfficiencyDefinition
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-HEADLINE = EfficiencyDefinition.ISO_SWEPT
-"""Definition of the efficiency that a page shows first."""
 ALIKE = 5e-4
 """Difference of efficiencies below which two definitions are drawn once: a twentieth of a percentage point."""
 SHOWN_SHARES = 5

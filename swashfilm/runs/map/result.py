@@ -10,7 +10,7 @@ from swashfilm.output.data.files import read_netcdf
 from swashfilm.output.result import Result, plotted
 from swashfilm.output.tables import Table
 from swashfilm.runs.map.files import MAP, PARTS, map_of
-from swashfilm.runs.map.page import axis_rows, best_rows, displacement_rows, failed_rows
+from swashfilm.runs.map.page import BEST_HEAD, DISPLACEMENT_HEAD, axis_rows, best_rows, displacement_rows, failed_rows
 from swashfilm.runs.map.panels import panels_figure
 from swashfilm.runs.map.plots import efficiency_panels, loss_panels, share_plot, stacked_over
 from swashfilm.runs.map.slices import main_slice
@@ -46,8 +46,8 @@ class MapRun(Result):
         summary = self.summary
         tables: list[Table] = [(f"Map of {self.name}, {summary['solver']}", list(axis_rows(summary)))]
         if summary["best"]:
-            tables.append(("Best points", list(best_rows(summary))))
-        tables.append(("Displacement", list(displacement_rows(summary))))
+            tables.append(("Best points", [BEST_HEAD, *best_rows(summary)]))
+        tables.append(("Displacement", [DISPLACEMENT_HEAD, *displacement_rows(summary)]))
         if summary["failed"]:
             tables.append(("Points without a result", list(failed_rows(summary))))
         return tables

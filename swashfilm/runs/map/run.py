@@ -35,6 +35,8 @@ from system.work.tasks import Executor, PartOutcome, PartStatus
 
 POINT_COST = {Fidelity.FIXED: 2.0, Fidelity.FLOATING: 100.0}
 """Approximate processor time of a point whose films are solved, s (`swashfilm map ref90 --direct`)."""
+CLOSED_COST = {Fidelity.LUMPED: LumpedSolver.cost, Fidelity.TABLE: TableSolver.cost}
+"""The same of a point without solved films."""
 CHEAP = 0.1
 """Seconds per point up to which fresh points are checked by default."""
 START = 4.0
@@ -61,21 +63,24 @@ class MapCase:
     @property
     def cost(self) -> float:
         """Approximate processor time, s."""
-        if self.fidelity in POINT_COST:
-            return POINT_COST[self.fidelity] * (sum(self.table_points) if self.by_table else len(self.plan.points))
-        return len(self.plan.points) * (LumpedSolver.cost if self.fidelity is Fidelity.LUMPED else TableSolver.cost)
+        return self.point_seconds * (sum(self.table_points) if self.by_table else self.plan.size)
+
+    @property
+    def point_seconds(self) -> float:
+        """Approximate processor time of one solved point, s."""
+        return (POINT_COST | CLOSED_COST)[self.fidelity]
 
     @property
     def points_words(self) -> str:
         """The points to solve, in words."""
-        own = f"{len(self.plan.points)} {self.fidelity.value} points"
+        own = f"{self.plan.size} {self.fidelity.value} points"
         return f"{own} by a table of {sum(self.table_points)} solved ones" if self.by_table else own
 
     @property
     def by_table(self) -> bool:
         """True if points are those of a response table that is built first: it needs fewer than the map."""
         solves = self.fidelity in POINT_COST and bool(self.varied) and not self.direct
-        return solves and sum(self.table_points) < len(self.plan.points)
+        return solves and sum(self.table_points) < self.plan.size
 
     @property
     def table_points(self) -> tuple[int, int]:
@@ -114,12 +119,12 @@ def solve_map(asked: MapCase, folder: Path, executor: Executor, report: Report) 
     solver = _solver(asked, executor, report)
     work = MapWork(plan.pump, solver)
     count = (CHECKED if solver.cost <= CHEAP else 0) if asked.checks is None else asked.checks
-    fresh, size = check_points(plan, count), len(plan.points)
+    fresh, size = check_points(plan, count), plan.size
     kept = _solved(work, (*plan.points, *fresh), asked.resume, folder, executor, report)
     report(len(kept.outcomes), len(kept.outcomes), "writing the map and its pictures")
     data = map_data(plan, solver.words, kept.outcomes[:size])
     error = _error(data, fresh, kept.outcomes[size:])
-    summary = map_summary(plan, work, data, kept, error) | {
+    summary = map_summary(plan, work, data, kept, error, fresh) | {
         "workers": executor.workers,
         "wall_s": time.monotonic() - began,
     }
@@ -206,7 +211,7 @@ def kept_table(asked: MapCase) -> ResponseTable:
     table = own_table(asked.table, pump) if asked.table else find_table(pump, middle)
     out = [point for point in plan.points if not table.holds(pump, point)]
     if out:
-        found = f"{len(out)} of {len(plan.points)} points outside its box, the first: {point_text(out[0])}"
+        found = f"{len(out)} of {plan.size} points outside its box, the first: {point_text(out[0])}"
         raise InputFaults("response table", [Fault("--table", found, "a table whose box contains the whole map")])
     return table
 

@@ -47,12 +47,6 @@ def main_slice(data: MapData) -> Slice | None:
     return Slice(_place(data, wide[0]), _place(data, wide[1]), held_levels(data)) if len(wide) > 1 else None
 
 
-def slice_of(data: MapData, across: MapInput, up: MapInput) -> Slice | None:
-    """Return the slice over two inputs; None where one of the two has a single level."""
-    places = _place(data, across), _place(data, up)
-    return Slice(*places, held_levels(data)) if min(data.shape[place] for place in places) > 1 else None
-
-
 def further_slices(data: MapData, piece: Slice) -> tuple[Slice, ...]:
     """Return a slice for each other level of the next input with several levels; at most MOST_PANELS - 1, evenly."""
     third = third_input(data)

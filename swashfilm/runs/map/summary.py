@@ -1,6 +1,6 @@
 """Summary of an operating map, summary.json: plan, solved points, best points, displacement, errors."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -16,17 +16,22 @@ from system.maps.interpolation import MapError
 from system.maps.plan import MapAxis, MapInput, MapPlan, point_words, reading_levels
 from system.maps.point import LumpedSolver, MapWork, TableSolver
 from system.points.film_effects import effects_in_films, film_effects
-from system.pump.operating import operating_point
+from system.pump.operating import OperatingPoint, operating_point
 from system.pump_file.file import check_pump
 from system.work.kept_results import KeptOutcomes
-from system.work.tasks import PartStatus
+from system.work.tasks import PartOutcome, PartStatus
 
 
 def map_summary(
-    plan: MapPlan, work: MapWork, data: MapData, kept: KeptOutcomes, error: MapError | None
+    plan: MapPlan,
+    work: MapWork,
+    data: MapData,
+    kept: KeptOutcomes,
+    error: MapError | None,
+    fresh: Sequence[OperatingPoint],
 ) -> dict[str, Any]:
-    """Return the summary of a map; `kept` holds the outcomes of its points, then those of fresh points."""
-    outcomes = kept.outcomes[: len(plan.points)]
+    """Return the summary of a map; `kept` holds the outcomes of its points, then those of the `fresh` ones."""
+    outcomes, checked = kept.outcomes[: len(plan.points)], kept.outcomes[len(plan.points) :]
     solved = [outcome for outcome in outcomes if outcome.status is PartStatus.SOLVED]
     return {
         **headed("map"),
@@ -37,7 +42,7 @@ def map_summary(
         "points": len(outcomes),
         "solved": len(solved),
         "kept": kept.known,
-        "checked": len(kept.outcomes) - len(outcomes),
+        "checked": len(checked),
         "failed": [
             {"at": point_words(point), "status": outcome.status.value, "reason": outcome.reason}
             for point, outcome in zip(plan.points, outcomes, strict=True)
@@ -52,7 +57,7 @@ def map_summary(
         "table_error": _table_error(work),
         "seconds_a_point": float(np.mean([one.seconds for one in solved])) if solved else None,
         "assumptions": _assumptions(work),
-        "warnings": list(_warnings(plan.pump, plan, data)),
+        "warnings": [*_warnings(plan.pump, plan, data), *_unchecked(fresh, checked)],
     }
 
 
@@ -152,11 +157,22 @@ def _warnings(pump: PumpDescription, plan: MapPlan, data: MapData) -> Iterator[s
         yield f"{name}: at {count} of {int(np.sum(data.solved))} points; at the first: {text}"
 
 
+def _unchecked(fresh: Sequence[OperatingPoint], found: Sequence[PartOutcome]) -> Iterator[str]:
+    """Yield a warning of the fresh points without a result: the map's error does not hold what is near them."""
+    failed = [(point, one) for point, one in zip(fresh, found, strict=True) if one.status is not PartStatus.SOLVED]
+    if failed:
+        point, first = failed[0]
+        yield (
+            f"points_failed: {len(failed)} of {len(found)} fresh points have no result and are left out of the error "
+            f"between levels, such as {point_words(point)}: {first.reason}; add levels on both sides of it"
+        )
+
+
 def _span(values: Array) -> dict[str, float] | None:
     finite = values[np.isfinite(values)]
     return {"least_W": float(finite.min()), "largest_W": float(finite.max())} if finite.size else None
 
 
-def _largest(values: Array) -> float:
+def _largest(values: Array) -> float | None:
     finite = values[np.isfinite(values)]
-    return float(finite.max()) if finite.size else 0.0
+    return float(finite.max()) if finite.size else None

@@ -47,10 +47,9 @@ def read_campaign(path: Path, pump: PumpDescription) -> CampaignFile:
         faults.append(Fault("head", f"'{','.join(text.head)}'", EXAMPLE))
     if not text.rows:
         faults.append(Fault("rows", "none", f"one point at least, under {EXAMPLE}"))
-    values = dict(column_values(text.rows, len(text.head), columns, faults)) if not faults else {}
+    lines, values = column_values(text.rows, len(text.head), columns, faults) if not faults else ((), {})
     if faults:
         raise InputFaults(str(path), faults)
-    lines = tuple(number for number, _ in text.rows)
     repeats = values.pop(REPEATS, np.ones(len(lines)))
     bad = [(line, one) for line, one in zip(lines, repeats, strict=True) if not _is_count(one)]
     faults += [

@@ -31,7 +31,8 @@ from system.description.pump import PumpDescription
 from system.description.tolerances import Tolerances, tolerances
 from system.effects.effect import EffectId
 from system.inputs.faults import Fault, InputFaults, nearest_choice
-from system.maps.plan import MapAxis, MapInput, map_plan, paper_axes
+from system.maps.plan import MapAxis, MapInput, map_plan
+from system.maps.usual_levels import usual_axes
 from system.pump.operating import OperatingPoint, operating_point
 from system.pump_file.file import load_pump
 from system.pump_file.operating import check_operating_point
@@ -195,7 +196,7 @@ def _planned(
             report = check_operating_point(pump, point)
             faults += [Fault(f"{one.path}, line {line}", one.found, one.expected, one.nearest) for one in report.faults]
         return file.points, file.repeats, np.arange(len(file.points)) / len(file.points)
-    usual = {axis.input: axis for axis in paper_axes()} if options.plan == "paper" else {}
+    usual = {axis.input: axis for axis in usual_axes(pump)} if options.plan == "paper" else {}
     if options.plan == "grid":
         usual = {given: _usual(given, box) for given in USUAL}
     try:

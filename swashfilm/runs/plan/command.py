@@ -28,7 +28,7 @@ def add_plan_options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--plan", metavar=f"{{{','.join(PLANS)}}}", default="grid",
         help="levels of axes that are not stated: three speeds, three pressures, two displacements (grid), the paper's "
-        "112 points (paper), or the pump's own point (point)",
+        "112 points in shares of the rating (paper), or the pump's own point (point)",
     )  # fmt: skip
     command.add_argument(
         "--campaign", type=Path, metavar="FILE.csv", help="planned points: speed [rpm], pressure [bar], .., repeats [1]"

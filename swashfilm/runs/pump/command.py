@@ -15,7 +15,7 @@ from swashfilm.console.inputs import COMMAND_LINE, expect, given_text, option_va
 from swashfilm.console.settings import LEVELS_EXAMPLE, add_set_option, set_values
 from swashfilm.console.terminal import show, show_result
 from system.inputs.faults import Fault, InputFaults, nearest_choice
-from system.inputs.units import share_meant
+from system.inputs.units import QuantityError, parse_share
 
 if TYPE_CHECKING:
     from swashfilm.runs.pump.run import PumpCase
@@ -193,10 +193,10 @@ def _overrides(options: argparse.Namespace) -> tuple[dict[str, object], list[Fau
         stated[path] = text
         if option == "--displacement":
             try:
-                stated[path] = float(text)
-            except ValueError:
-                wanted = f"{what}, a bare number such as {example}"
-                faults.append(Fault(option, repr(text), wanted, share_meant(text)))
+                stated[path] = parse_share(text)
+            except QuantityError as reason:
+                wanted = f"{what}, {reason.expected}, such as {example}"
+                faults.append(Fault(option, reason.found, wanted, reason.nearest))
                 del stated[path]
     return stated, faults
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gaps.standing.gap_film import GapFilm
-from swashfilm.output.data.files import add_group, columns_of, write_columns
+from swashfilm.output.data.files import RESULTS, add_group, columns_of, write_columns
 from swashfilm.output.data.gap_names import kind_folder
 from system.films.oil_state import UNITS, oil_state
 from system.points.films import FilmsPoint
@@ -21,8 +21,7 @@ if TYPE_CHECKING:
 
 GAPS = ("piston", "slipper", "valve_plate")
 PARTS = ("piston", "slipper")
-"""The gaps that each kind of chambers has separately."""
-RESULTS = "results.nc"
+"""The gaps that each kind of chambers has for itself."""
 PICTURED_TURN = 0.75
 """Fraction of the turn at which gaps are drawn: the middle of delivery, largest piston speed."""
 _GAP_SERIES = {

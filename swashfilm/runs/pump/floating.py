@@ -11,7 +11,7 @@ from gaps.films.physics import Effect
 from gaps.revolution.march import GapRevolution, Leg
 from swashfilm.case.gap.physics import PHYSICS_HEAD, effect_rows
 from swashfilm.console.fidelity import Fidelity
-from swashfilm.output.data.files import add_group, read_netcdf
+from swashfilm.output.data.files import RESULTS, add_group, read_netcdf
 from swashfilm.output.data.gap_names import TITLES, kind_folder
 from swashfilm.output.page import inlined
 from swashfilm.output.run_folder import FAILED, write_json
@@ -38,7 +38,6 @@ from system.points.floating import FloatingKind, FloatingPoint
 from system.points.floating_gaps import FloatingOptions
 from system.points.floating_solved import GapsOfKind, Round, Solved, SolvedGap
 
-RESULTS = "results.nc"
 _OF_PUMP = ("format", "kind", "name", "gap", "physics_left_out", "physics_seconds", "assumptions", "warnings")
 
 
@@ -53,7 +52,7 @@ CAPTIONS = {
 }
 HEAD = (
     "gap", "mean film", "least film", "leakage", "friction power", "of which contact", "largest contact load",
-    "turns, multiplier",
+    "turns solved; disturbance left after a turn",
 )  # fmt: skip
 
 
@@ -261,10 +260,13 @@ def backward(summary: Mapping[str, Any]) -> list[str]:
 
 
 def floating_rows(summary: Mapping[str, Any]) -> list[tuple[str, ...]]:
-    """Return a row per gap: films, leakage, friction, contact, convergence; then those of differing chambers."""
-    named = [(TITLES[gap], of) for gap, of in summary["gaps"].items()]
+    """Return a row per gap: films, leakage, friction, contact, convergence; then those of differing chambers.
+
+    Of pistons and slippers it is one, where the tables of the whole pump have the sum of all.
+    """
+    named = [(_one(gap), of) for gap, of in summary["gaps"].items()]
     for kind in summary["unlike"].values():
-        named += [(f"{TITLES[gap]}, {chamber_numbers(kind)}", of) for gap, of in kind["gaps"].items()]
+        named += [(f"{_one(gap)}, {chamber_numbers(kind)}", of) for gap, of in kind["gaps"].items()]
     return [
         (
             name,
@@ -274,7 +276,12 @@ def floating_rows(summary: Mapping[str, Any]) -> list[tuple[str, ...]]:
             f"{of['friction_power_W']:.1f} W",
             f"{of['rubbing_power_W']:.1f} W",
             f"{of['contact_load_max_N']:.0f} N",
-            f"{of['turns']}, {of['largest_multiplier']:.2g}",
+            f"{of['turns']}; {100.0 * of['largest_multiplier']:.2g} %",
         )
         for name, of in named
     ]
+
+
+def _one(gap: str) -> str:
+    """Return the name of a gap whose numbers are those of one part: `one piston-cylinder`; the block is one."""
+    return TITLES[gap] if gap == Gap.VALVE_PLATE.value else f"one {TITLES[gap]}"

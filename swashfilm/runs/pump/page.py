@@ -29,6 +29,7 @@ from swashfilm.runs.pump.summary import chamber_numbers
 from swashfilm.runs.table.summary import TABLE_POINT_HEAD, table_point_rows
 from system.inputs.shown import pressure_text, shown_in
 from system.inputs.units import LPM
+from system.pump.bench import EFFICIENCIES
 from system.pump.laws.friction_pairs import Pair
 
 Rows = list[tuple[str, ...]]
@@ -151,7 +152,7 @@ def efficiency_rows(summary: Mapping[str, Any]) -> Rows:
     norms = [summary["efficiency"][key] for key in ("paper", "iso_4409")]
     return [
         (f"{name} efficiency", *("none" if norm[name] is None else f"{100 * norm[name]:.2f} %" for norm in norms))
-        for name in ("overall", "volumetric", "hydromechanical")
+        for name in EFFICIENCIES
     ]
 
 

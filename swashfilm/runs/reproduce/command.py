@@ -63,8 +63,8 @@ def run_reproduce_command(options: argparse.Namespace) -> int:
     from system.work.processes import process_pool
 
     with (
-        process_pool(workers) as executor,
         run_folder("reproduce", options.output, workbook=options.excel) as folder,
+        process_pool(workers) as executor,
         progress(1, f"reproduce {options.figure}") as report,
     ):
         run_reproduce(asked, executor, folder, report)

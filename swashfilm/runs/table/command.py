@@ -15,7 +15,7 @@ from swashfilm.console.inputs import COMMAND_LINE, option_value, whole
 from swashfilm.console.settings import add_set_option, set_values
 from swashfilm.console.terminal import show_result
 from system.inputs.faults import Fault, InputFaults, nearest_choice
-from system.inputs.units import share_meant
+from system.inputs.units import QuantityError, parse_share
 
 if TYPE_CHECKING:
     from swashfilm.runs.table.gap_case import GapTableCase
@@ -197,10 +197,9 @@ def _pump(options: argparse.Namespace, faults: list[Fault], single: Collection[s
     stated |= {path: text for option, (path, *_) in keys.items() if (text := option_value(options, option)) is not None}
     if "--displacement" in single:
         try:
-            stated["operating.displacement_ratio"] = float(options.displacement)
-        except ValueError:
-            text = options.displacement
-            faults.append(Fault("--displacement", repr(text), "a bare number such as 0.8", share_meant(text)))
+            stated["operating.displacement_ratio"] = parse_share(options.displacement)
+        except QuantityError as reason:
+            faults.append(Fault("--displacement", reason.found, f"{reason.expected}, such as 0.8", reason.nearest))
             del stated["operating.displacement_ratio"]
     try:
         pump = load_pump(options.pump, stated)

@@ -125,10 +125,6 @@ def _hold_pump(table: Table, pump: CasePump, section: TransientSection) -> None:
         table.fault("pump (operating.displacement_ratio)", found, limit)
     if getattr(section, "end", 0.0) * point.shaft_speed > MOST_TURNS * TURN:
         table.fault("end", str(table.values["end"]), f"at most {MOST_TURNS:g} turns of the shaft")
-    largest = max((value for _, value in getattr(section, "control_pressure", ())), default=np.inf)
-    if whole.actuator.area is None and largest <= point.case_pressure:
-        found = f"at most {format_quantity(largest, Dimension.PRESSURE, digits=4)}"
-        table.fault("control_pressure", found, "more than the case's pressure, or [pump.actuator] area")
 
 
 def _resolved(section: TransientSection, pump: CasePump) -> str:

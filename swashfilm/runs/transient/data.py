@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,6 +17,7 @@ from swashfilm.output.data.files import columns_of, write_columns
 from swashfilm.runs.pump.summary import effect_lists
 from swashfilm.runs.transient.stops import contact_summary, stop_contacts
 from system.effects.switched import switched_on
+from system.inputs.units import Dimension, format_quantity
 from system.multibody.transient import kernels as kernel
 from system.multibody.transient.pistons import stroke_ratio
 from system.multibody.transient.solver import Transient, flows
@@ -129,8 +131,20 @@ def _turn(data: xarray.Dataset, within: NDArray[np.bool_]) -> Mapping[str, float
     }
 
 
+def _oversized(found: Transient) -> Iterator[str]:
+    """Yield a warning of an actuator that is wider than the circle of the pistons."""
+    bore = 2.0 * math.sqrt(found.mechanism.actuator.area / math.pi)
+    limit = 2.0 * found.case.pump.pump.pitch_radius
+    if bore > limit:
+        wide, circle = (format_quantity(length, Dimension.LENGTH, digits=3) for length in (bore, limit))
+        yield (
+            f"actuator_oversized: the actuator's piston has a diameter of {wide} (limit {circle}, the pistons' pitch "
+            "circle): no pump holds it; state actuator.area, or a weaker actuator.spring_preload"
+        )
+
+
 def _warnings(found: Transient) -> list[str]:
-    warnings = []
+    warnings = [*_oversized(found)]
     low = found.pressure.min(axis=1) <= CAVITY_PRESSURE
     if low.any():
         first = float(found.time[np.argmax(low)])

@@ -68,7 +68,7 @@ def turn_rows(summary: Mapping[str, Any]) -> list[tuple[str, ...]]:
     shown = (
         ("delivery flow", "delivery_flow_m3_per_s", LPM, "L/min"),
         ("drive torque", "shaft_torque_Nm", 1.0, "N m"),
-        ("moment of the chambers' pressure on the plate", "pressure_moment_Nm", 1.0, "N m"),
+        ("moment of the pressure towards a larger swash angle", "pressure_moment_Nm", 1.0, "N m"),
     )
     return [(name, *(f"{scale * turn[key]:.2f} {unit}" for turn in (first, last))) for name, key, scale, unit in shown]
 

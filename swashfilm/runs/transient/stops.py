@@ -98,8 +98,10 @@ def contact_rows(contacts: list[Mapping[str, Any]]) -> Iterator[tuple[str, str]]
         yield "contact with a stop", "none"
     for one in contacts:
         impact = f"impact up to {one['impact_max_Nms']:.2g} N m s" if one["impact_max_Nms"] else "no impact"
-        share = f"{_touch(one)} it{_but_lifts(one)}"
-        yield f"contact with the {one['stop']} stop", f"{_ms(one['from_s'])} to {_ms(one['to_s'])}, {share}; {impact}"
+        begin, end = _ms(one["from_s"]), _ms(one["to_s"])
+        share = f", {_touch(one)} this time" if one["share"] < 1.0 else ""
+        when = f"at {begin}" if begin == end else f"{begin} to {end}{share}{_but_lifts(one)}"
+        yield f"contact with the {one['stop']} stop", f"{when}; {impact}"
 
 
 def contact_summary(one: StopContact) -> dict[str, Any]:

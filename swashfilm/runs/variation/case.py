@@ -13,7 +13,7 @@ from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.floating_options import alike_faults, floating_faults, floating_options
 from swashfilm.console.inputs import COMMAND_LINE, expect, given_text
 from swashfilm.console.settings import set_values
-from swashfilm.runs.map.command import solving_faults, stated_axes
+from swashfilm.runs.map.command import solving_faults, stated_axes, with_usual
 from swashfilm.runs.map.duty.cycle_file import read_cycle
 from swashfilm.runs.map.run import POINT_COST, MapCase, kept_table
 from swashfilm.runs.variation.options import chosen_keys, needs_keys
@@ -77,12 +77,13 @@ def varied_case(
     """
     faults = [*solving_faults(options), *more]
     set_keys = set_values(options.set, faults)
-    axes = stated_axes(options, faults)
+    own_axes = stated_axes(options, faults)
     expect(options.pump, "pump", "film")
     try:
         pump = load_pump(options.pump, set_keys)
     except InputFaults as reason:
         raise InputFaults(reason.source, [*faults, *reason.faults], reason.lines) from None
+    axes = with_usual(options.plan, pump, own_axes)
     plan = map_plan(pump, axes if options.cycle is None else cycle_axes(pump, axes, options.cycle))
     faults += [*plan.checked().faults, *alike_faults(pump)]
     by_table = options.fidelity == Fidelity.TABLE.value and not faults
@@ -111,7 +112,7 @@ def varied_case(
 def cycle_axes(pump: PumpDescription, axes: Sequence[MapAxis], cycle: Path) -> list[MapAxis]:
     """Return the stated axes, and levels over the range of the cycle for the others that it varies."""
     stated = {axis.input for axis in axes}
-    inputs = read_cycle(cycle, map_plan(pump, ()).axes).inputs
+    inputs = read_cycle(cycle, map_plan(pump, ()).axes, within=False).inputs
     return [*axes, *(_over(given, inputs[given]) for given in inputs if given not in stated)]
 
 

@@ -44,7 +44,8 @@ def limit_of(text: str, known: Sequence[Measure], faults: list[Fault]) -> Limit 
     try:
         return Limit(measure, Bound(match[2]), measure_value(match[3], measure), text.strip())
     except QuantityError as reason:
-        faults.append(Fault("--limit", f"{text!r}: {reason.found}", reason.expected, reason.nearest))
+        near = f"{match[1]} {match[2]} {reason.nearest}" if reason.nearest else ""
+        faults.append(Fault("--limit", f"{text!r}: {reason.found}", reason.expected, near))
         return None
 
 
@@ -76,11 +77,20 @@ def measure_value(text: str, measure: Measure) -> float:
         return parse_quantity(text, _DIMENSIONS[measure.unit])
     if measure.unit == "Pa/s":
         return _rate(text)
+    return _share(text, measure)
+
+
+def _share(text: str, measure: Measure) -> float:
+    """Return a share; one of a measure that none has above 1 is a percentage whose sign was forgotten."""
     number, percent = text.removesuffix("%"), text.endswith("%")
     try:
-        return float(number) * (0.01 if percent else 1.0)
+        value = float(number)
     except ValueError:
         raise QuantityError(repr(text), "a share, such as '88 %'") from None
+    if value > 1.0 and not percent and measure.within_one:
+        meant = f"{text.strip()} %"
+        raise QuantityError(f"{text!r}, {100.0 * value:g} %", f"a share of at most 100 %, such as '{meant}'", meant)
+    return 0.01 * value if percent else value
 
 
 def _bare(text: str) -> bool:

@@ -29,7 +29,8 @@ def add_varied_options(command: argparse.ArgumentParser) -> None:
         command.add_argument(option, metavar=example, help=f"{what}; a..b:n: n levels; one value: constant")
     command.add_argument(
         "--plan", metavar=f"{{{','.join(PLANS)}}}", default="point",
-        help="levels of axes that are not stated: the pump's own point (point), or the paper's 112 points (paper)",
+        help="levels of axes that are not stated: the pump's own point (point), or the paper's 112 points in shares of "
+        "the rating (paper)",
     )  # fmt: skip
     command.add_argument(
         "--cycle",

@@ -11,7 +11,7 @@ from system.description.keys import PumpKey
 from system.inputs.shown import quantity_text
 from system.inputs.units import Dimension, in_unit, reading_unit
 from system.maps.plan import MapInput, point_words
-from system.variation.sensitivity import one_of, unit_change
+from system.variation.sensitivity import PERCENT, unit_change
 
 
 def where(case: VariedCase) -> dict[str, Any]:
@@ -46,9 +46,9 @@ def change_text(key: PumpKey) -> str:
     return "1 %" if key.value != 0.0 else size_text(key, unit_change(key))
 
 
-def percent_of(key: PumpKey) -> float:
-    """Return 1 % of a dimension, SI; of one that is zero, of the size of its kind."""
-    return 0.01 * one_of(key)
+def percent_of(key: PumpKey) -> float | None:
+    """Return 1 % of a dimension, SI; None of one that is zero."""
+    return PERCENT * abs(key.value) or None
 
 
 def size_text(key: PumpKey, size: float) -> str:

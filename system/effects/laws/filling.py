@@ -11,9 +11,9 @@ from system.description.gap import Gap
 from system.effects.effect import BenchState, Effects, GapCourse
 from system.effects.extension import Values
 from system.effects.laws.flow import REFERENCE_VISCOSITY
-from system.effects.state import full_stroke, ideal_flow, piston_area, unchanged
+from system.effects.state import full_stroke, ideal_flow, unchanged
 from system.pump.chamber.layout import CAVITY_PRESSURE
-from system.pump.lumped import port_openings
+from system.pump.lumped import piston_area, port_openings
 from system.pump.ports.areas import opening_area
 
 Courses = Mapping[Gap, GapCourse]
@@ -29,7 +29,7 @@ ROOTS = np.linspace(0.0, 4.0, 401)
 def kidney_loss(state: BenchState, speed: Array, displacement_ratio: Array) -> Array:
     """Pa (N,), loss of the suction kidney at one piston's largest flow: rho/2 (q/(Cd A))^2."""
     suction, _ = state.geometry.ports.sides
-    flow = piston_area(state) * speed * 0.5 * full_stroke(state) * displacement_ratio
+    flow = piston_area(state.geometry) * speed * 0.5 * full_stroke(state) * displacement_ratio
     drop = 0.5 * state.geometry.oil.density * (flow / (suction.flow_coefficient * suction.kidney_area)) ** 2
     return np.asarray(drop)
 

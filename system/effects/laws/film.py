@@ -15,7 +15,10 @@ from system.pump.film_thickness import LEAST_FILM
 ISENTROPIC_RISE = 0.45e-6
 """K/Pa by which throttled mineral oil warms, (1 - alpha T)/(rho cp)."""
 WARM_PASSES = 8
-"""Rounds between a film's heat and its temperature; each leaves less than a third of the error before."""
+"""Rounds between a film's heat and its temperature: within 1 % of rises up to 30 K, and 5 % up to 60 K.
+
+Always as many, so that a fit by differences sees a smooth law.
+"""
 THINNING = 0.04
 """1/K, of viscosity: mineral oils at 20 to 80 degC have .03 to .06."""
 SMALL = 1e-9

@@ -11,7 +11,8 @@ from system.effects.effect import BenchState, Effects, GapCourse
 from system.effects.extension import Values
 from system.effects.laws.film import through_orifice
 from system.effects.laws.flow import REFERENCE_VISCOSITY
-from system.effects.state import GAPS, piston_area, pressure_difference, swash_tangent, throttled, unchanged
+from system.effects.state import GAPS, pressure_difference, swash_tangent, throttled, unchanged
+from system.pump.lumped import piston_area
 
 ONSET = 0.2
 """Share of the holding moment over which a part tips smoothly, from that moment on."""
@@ -32,7 +33,7 @@ def slipper_ratio(state: BenchState, pressure: Array, retainer_force: float) -> 
     """
     slipper, part = state.geometry.slipper, state.geometry.pump
     tips = slipper.mass * state.speed**2 * part.pitch_radius * slipper.centre_of_mass_to_ball
-    holds = (piston_area(state) * np.maximum(pressure, 0.0) + retainer_force) * slipper.land_inner_radius
+    holds = (piston_area(state.geometry) * np.maximum(pressure, 0.0) + retainer_force) * slipper.land_inner_radius
     return np.asarray(tips[:, None] / np.maximum(holds, 1e-3))
 
 
@@ -62,7 +63,7 @@ def slippers_ride_on_a_wedge(values: Values, courses: Courses, state: BenchState
     """
     course, part = courses[Gap.SLIPPER], state.geometry.pump
     force = values["retainer_force"]
-    holds = piston_area(state) * np.maximum(course.pressure, 0.0) + force
+    holds = piston_area(state.geometry) * np.maximum(course.pressure, 0.0) + force
     sliding = (
         state.viscosity[:, None] * course.sliding_speed / (REFERENCE_VISCOSITY * part.rated_speed * part.pitch_radius)
     )
@@ -90,7 +91,7 @@ def block_ratio(state: BenchState, course: GapCourse) -> Array:
     spring = guide.spring_preload + guide.spring_stiffness * guide.spring_compression
     mass = pump.piston.mass + pump.slipper.mass
     tips = 0.5 * part.pistons * mass * (state.speed * part.pitch_radius) ** 2 * swash_tangent(state)
-    thrust = part.pistons * piston_area(state) * np.maximum(course.pressure, 0.0).mean(axis=1)
+    thrust = part.pistons * piston_area(state.geometry) * np.maximum(course.pressure, 0.0).mean(axis=1)
     arm = plate.outer_radius - 2.0 / np.pi * part.pitch_radius
     return np.asarray(tips / (spring * plate.outer_radius + plate.residual_clamping * thrust * arm))
 

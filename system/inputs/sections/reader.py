@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import Any
 
 from reynolds.errors import InputError
-from system.inputs.faults import Fault, InputFaults, nearest_choice, stated
+from system.inputs.faults import Fault, InputFaults, UnknownKey, nearest_choice, stated
 from system.inputs.sections.fields import AnySection, FieldType, FormulaOf, FromTable, fields_of
 from system.inputs.sections.values import HERE, broken_limit, names_of, read_value, wanted
 from system.inputs.toml_table import Table
-from system.inputs.units import QuantityError, to_gauge
+from system.inputs.units import QuantityError, to_gauge, without_absolute
 
 ABSOLUTE = "_abs"  # a pressure key that ends so is absolute
 
@@ -40,10 +40,10 @@ class Reading:
         self.faulty.add(path)
 
     def unknown(self, section: str, key: str, known: Sequence[str]) -> None:
-        """Note an unknown key; the known one of similar spelling gets no fault of its own."""
-        near = nearest_choice(key, known)
-        self.fault(f"{section}{key}", "unknown key", f"one of {', '.join(known)}", near)
-        self.faulty.add(f"{section}{near}")
+        """Note an unknown key; the known one that it is spelt like gets no fault of its own."""
+        fault = UnknownKey.among(f"{section}{key}", key, known)
+        self.faults.append(fault)
+        self.faulty |= {fault.path, f"{section}{fault.nearest}"}
 
     def keys(self, path: str, model: type[Any]) -> list[str]:
         """Keys that a table may have."""
@@ -166,7 +166,9 @@ def _values(path: str, model: type[Any], table: Mapping[str, object], reading: R
             reading.unknown(under(path, ""), written, reading.keys(path, model))
         elif absolute and key in table:
             reading.fault(under(path, written), f"both {key} and {written}", "one of the two, gauge or absolute")
-        elif (value := read_entry(under(path, written), own, raw, reading)) is None:
+        elif (
+            value := read_entry(under(path, written), own, without_absolute(raw) if absolute else raw, reading)
+        ) is None:
             reading.faulty.add(under(path, key))
         else:
             values[key] = _gauge(value) if absolute else value

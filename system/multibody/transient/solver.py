@@ -1,6 +1,6 @@
 """A pump in time while its swash plate swings: a control pressure that steps or ramps, at the lumped fidelity."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from enum import Enum
 
 import numpy as np
@@ -121,8 +121,7 @@ def run_transient(case: TransientCase) -> Transient:
     """
     pump, point = case.pump, case.point
     kinds(pump).hold_alike()
-    highest = float(np.max(case.control_pressure.values))
-    parts = mechanism(pump, replace(point, displacement_ratio=1.0), highest)
+    parts = mechanism(pump)
     drive, pistons = drive_at_ratio(full_drive(pump), point.displacement_ratio), pump.pump.pistons
     angle = swash_angle(drive)
     swing = natural_frequency(pump, parts, angle)

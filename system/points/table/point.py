@@ -20,6 +20,7 @@ from system.pump.chamber.port_coupling import ported_cycle
 from system.pump.chamber.problem import LeakTable
 from system.pump.chamber.turn import Gaps
 from system.pump.chamber_kinds import kinds
+from system.pump.friction_range import with_friction_range
 from system.pump.lumped import (
     PistonMotion,
     chamber_problem,
@@ -88,6 +89,8 @@ def table_point(pump: PumpDescription, point: OperatingPoint, table: ResponseTab
     derived, masses = swept_displacement(pump, motion.drive), group_masses(pump)
     outside = mean_outside(own, met_point(point, ported), effects)
     found = assemble(point, ported, (losses,), pistons, derived, exchange, (masses,), outside)
+    if table.origin.source is Source.FIXED:
+        found = with_friction_range(pump, found)
     given = given_films(pump)
     return TablePoint(
         pump_point=found,

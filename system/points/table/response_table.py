@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from gaps.response import Measure, Response, unit_places
+from gaps.response import Measure, Response, outside, unit_places
 from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
 from system.description.keys import key_dimension, key_value
@@ -87,7 +87,9 @@ class ResponseTable:
         another value of a held input.
         """
         self._check_held(point)
-        found = self._means(self._place(pump, point)[None, :])
+        place = self._place(pump, point)[None, :]
+        self._check_box(place)
+        found = self._means(place)
         return {name: float(values[0]) for name, values in found.items()}
 
     def nearest(
@@ -137,6 +139,17 @@ class ResponseTable:
     def _place(self, pump: PumpDescription, point: OperatingPoint) -> Array:
         """The place (d,) of a pump at a point, in the order of the axes."""
         return np.array([_value(axis.name, pump, point) for axis in self.response.axes])
+
+    def _check_box(self, place: Array) -> None:
+        """Raise InputError for a place (1, d) outside the box: each input as people read it."""
+        out = outside(self.response.axes, place)
+        if out:
+            ranges = (f"{axis_value(axis.name, axis.lower)} .. {axis_value(axis.name, axis.upper)}" for axis, _ in out)
+            raise InputError(
+                ", ".join(axis_words(axis.name) for axis, _ in out),
+                ", ".join(axis_value(axis.name, value) for axis, value in out),
+                f"{', '.join(ranges)}, the table's box: nothing is extrapolated",
+            )
 
     def _check_held(self, point: OperatingPoint) -> None:
         for name, own in self.origin.held.items():

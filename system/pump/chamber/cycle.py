@@ -51,11 +51,10 @@ class ChamberChecks:
 
 @dataclass(frozen=True)
 class Effort:
-    """Effort of the solution: revolutions until periodic, steps taken and refused in the last of them."""
+    """Effort of the solution: revolutions until periodic, steps taken in the last of them."""
 
     revolutions: int
     steps: int
-    refused_steps: int
 
 
 @dataclass(frozen=True)
@@ -95,7 +94,7 @@ def solve_cycle(problem: ChamberProblem, samples: int, tolerance: float = TOLERA
     course = Course.over(nodes)
     limits = tolerance, PERIODICITY, REVOLUTION_LIMIT
     solved = periodic(constants(problem), nodes, limits, course.filled)
-    turns, steps, refused, drift, change, status = solved
+    turns, steps, drift, change, status = solved
     if status == NOT_PERIODIC:
         limit = PERIODICITY * problem.pressure_span
         raise NotConverged(
@@ -106,7 +105,7 @@ def solve_cycle(problem: ChamberProblem, samples: int, tolerance: float = TOLERA
         what = "a step became too small" if status == kernel.STEP_TOO_SMALL else "a stage found no pressure"
         raise unsolved(what, problem.delivery_pressure, problem.shaft_speed)
     checks = _checks(problem, course.totals, drift, change)
-    return _cycle(problem, Effort(turns, steps, refused), course.at(nodes, sample_nodes), checks)
+    return _cycle(problem, Effort(turns, steps), course.at(nodes, sample_nodes), checks)
 
 
 def unsolved(what: str, delivery_pressure: float, shaft_speed: float) -> NotConverged:

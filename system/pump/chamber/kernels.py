@@ -14,6 +14,7 @@ import numpy as np
 
 from system.pump.chamber import layout as col
 from system.pump.chamber.layout import CAVITY_PRESSURE, INTEGRALS, PATHS, WAYS
+from system.pump.chamber.problem import pressure_span
 from system.pump.chamber.state_kernels import (
     cubics,
     f8,
@@ -236,14 +237,14 @@ def keep(angle, length, stages, out):
 
 
 @numba.njit(
-    numba.types.Tuple((f8, numba.i8, numba.i8, numba.i8))(
+    numba.types.Tuple((f8, numba.i8, numba.i8))(
         records, cubics, cubics, vector, f8, f8, vector, _matrix, _matrix, vector, _matrix
     ),
     cache=True,
     error_model="numpy",
 )
 def revolution(chamber, table, ports, nodes, pressure, tolerance, pressures, path_rates, passed, totals, trail):
-    """One turn from a pressure at nodes[0]: mass at the end less that at the start, steps taken, refused, status.
+    """One turn from a pressure at nodes[0]: mass at the end less that at the start, steps taken, status.
 
     Steps end on every node (ascending shaft angles over one turn, breaks of the ports among them). `pressures`,
     `path_rates` (mass per radian by path) and `passed` (mass by path since nodes[0]) receive the solution at nodes[1:],
@@ -252,7 +253,7 @@ def revolution(chamber, table, ports, nodes, pressure, tolerance, pressures, pat
     below `tolerance` times the port pressure difference.
     """
     c = chamber[0]
-    scale = tolerance * (abs(c.delivery_pressure - c.inlet_pressure) + 1e5)
+    scale = tolerance * pressure_span(c.delivery_pressure, c.inlet_pressure)
     work_scale = scale * c.piston_area * 2.0 * c.stroke_scale
     stages, ways, flows = np.empty((STAGES, COLUMNS)), np.empty(WAYS), np.empty(PATHS)
     content, swell = volume(chamber, table, nodes[0])
@@ -265,7 +266,7 @@ def revolution(chamber, table, ports, nodes, pressure, tolerance, pressures, pat
     begin = content / specific
     mass, slope = begin, 0.0
     totals[:] = 0.0
-    taken, refused, wish = 0, 0, FIRST_STEP
+    taken, wish = 0, FIRST_STEP
     last_length, last_size = 0.0, 1.0
     for node in range(1, nodes.size):
         angle = nodes[node - 1]
@@ -280,13 +281,11 @@ def revolution(chamber, table, ports, nodes, pressure, tolerance, pressures, pat
             if fine and crosses and length > CAVITY_STEP:
                 way = to_cavity(chamber, table, angle, length, mass, new_mass, stages[0, LEFT])
                 wish = max(min(way, 0.9 * length) - 0.5 * CAVITY_STEP, CAVITY_STEP)
-                refused += 1
                 continue
             if not fine or size > 1.0:
-                refused += 1
                 wish = length * (max(0.2, SAFETY * size**-0.25) if fine else 0.25)
                 if wish < SMALLEST_STEP:
-                    return mass - begin, taken, refused, STEP_TOO_SMALL if fine else NO_STAGE
+                    return mass - begin, taken, STEP_TOO_SMALL if fine else NO_STAGE
                 continue
             for stage in range(STAGES):
                 share, doubt = length * WEIGHTS[stage], length * ERROR[stage]
@@ -312,4 +311,4 @@ def revolution(chamber, table, ports, nodes, pressure, tolerance, pressures, pat
         for path in range(PATHS):
             path_rates[node - 1, path] = stages[0, col.OUTFLOW + path]
             passed[node - 1, path] = totals[col.OUTFLOW + path]
-    return mass - begin, taken, refused, OK
+    return mass - begin, taken, OK

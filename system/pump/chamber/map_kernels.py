@@ -7,6 +7,7 @@ import numpy as np
 
 from system.pump.chamber.kernels import OK, TRAIL, revolution, slaved_pressure
 from system.pump.chamber.layout import INTEGRALS, PATHS
+from system.pump.chamber.problem import pressure_span
 from system.pump.chamber.state_kernels import oil_change, oil_of
 from system.pump.chamber.trail_kernels import NOT_PERIODIC, RUN_IN, follow_turn, sample
 
@@ -29,10 +30,10 @@ def chamber_map(constants, tables, ports, nodes, firsts, control, pressures, tot
         given = constants[point : point + 1], tables[point], ports[point]
         own = nodes[firsts[point] : firsts[point + 1]]
         begin, filled = begins[point], room(own.size - 1, totals[point])
-        _, steps, _, _, _, statuses[point] = periodic(given, own, control, (*filled, trail[begin:]))
+        _, steps, _, _, statuses[point] = periodic(given, own, control, (*filled, trail[begin:]))
         if begin + steps > trail.shape[0]:
             trail = np.concatenate((trail[:begin], np.empty((2 * (begin + steps), TRAIL))))
-            _, steps, _, _, _, statuses[point] = periodic(given, own, control, (*filled, trail[begin:]))
+            _, steps, _, _, statuses[point] = periodic(given, own, control, (*filled, trail[begin:]))
         begins[point + 1] = begin + steps
         if statuses[point] == OK:
             sample(trail[begin : begin + steps], pressures[point])
@@ -75,29 +76,29 @@ def beside_map(constants, tables, ports, nodes, firsts, control, trail, begins, 
 @numba.njit(cache=True, error_model="numpy")
 def turn_limit(chamber, periodicity):
     """`oil_change` over a turn (Pa) of one that is periodic."""
-    return periodicity * (abs(chamber.delivery_pressure - chamber.inlet_pressure) + 1e5)
+    return periodicity * pressure_span(chamber.delivery_pressure, chamber.inlet_pressure)
 
 
 @numba.njit(cache=True, error_model="numpy")
 def periodic(given, nodes, control, filled):
     """The periodic revolution of one chamber; `filled` are the last five arguments of `revolution`.
 
-    control: tolerance, periodicity, turns. Returned: turns; of the last one its steps, its refused steps and its
+    control: tolerance, periodicity, turns. Returned: turns; of the last one its steps and its
     change of mass in m3; `oil_change` over it in Pa; status.
     """
     tolerance, periodicity, turns = control
     limit = turn_limit(given[0][0], periodicity)
     start = run_in(given, nodes, tolerance, filled[3])
-    steps, refused, drift, change = 0, 0, 0.0, np.inf
+    steps, drift, change = 0, 0.0, np.inf
     for turn in range(1, turns + 1):
-        drift, steps, refused, status = revolution(*given, nodes, start, tolerance, *filled)
+        drift, steps, status = revolution(*given, nodes, start, tolerance, *filled)
         if status != OK:
-            return turn, steps, refused, drift, change, status
+            return turn, steps, drift, change, status
         end = filled[0][nodes.size - 2]
         change, start = oil_change(start, end, oil_of(given[0])), end
         if abs(change) <= limit:
-            return turn, steps, refused, drift, change, OK
-    return turns, steps, refused, drift, change, NOT_PERIODIC
+            return turn, steps, drift, change, OK
+    return turns, steps, drift, change, NOT_PERIODIC
 
 
 @numba.njit(cache=True, error_model="numpy")
@@ -109,7 +110,7 @@ def run_in(given, nodes, tolerance, totals):
     if found:
         count = before.size - 1
         filled = room(count, totals)
-        status = revolution(*given, before, start, tolerance, *filled, np.empty((0, TRAIL)))[3]
+        status = revolution(*given, before, start, tolerance, *filled, np.empty((0, TRAIL)))[2]
         if status == OK:
             return filled[0][count - 1]
     return given[0][0].inlet_pressure

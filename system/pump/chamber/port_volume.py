@@ -140,9 +140,10 @@ def _area_for(line: OrificeLine, pressure: Array, supply: Supply, oil: ChamberPr
     needed = supply.mean - float(np.mean(supply.draw))
     area = 1e-5
     for _ in range(AREA_LIMIT):
-        ratio = needed / float(np.mean(dense * _through(area, drop, oil)[0]))
-        if not 0.0 < ratio < np.inf:
+        passed = float(np.mean(dense * _through(area, drop, oil)[0]))
+        if not needed * passed > 0.0:
             break
+        ratio = needed / passed
         area *= ratio
         if abs(ratio - 1.0) < AREA_TOLERANCE:
             return area

@@ -4,12 +4,14 @@ from dataclasses import dataclass, field
 from typing import Generic
 
 import numpy as np
+from numba.extending import register_jitable
 
 from reynolds.numerics.arrays import Array
 from system.pump.laws.kinematics import Number, SwashDrive
 from system.pump.ports.areas import PortOpening
 
 
+@register_jitable
 def pressure_span(delivery_pressure: Number, inlet_pressure: Number) -> Number:
     """Pressure difference of the ports and 1 bar, Pa: a size that stays above zero."""
     return abs(delivery_pressure - inlet_pressure) + 1e5

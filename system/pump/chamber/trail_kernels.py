@@ -33,6 +33,7 @@ from system.pump.chamber.kernels import (
     step_size,
 )
 from system.pump.chamber.layout import INTEGRALS, PATHS, WAYS
+from system.pump.chamber.problem import pressure_span
 from system.pump.chamber.state_kernels import oil_change, oil_of, oil_volume, outflows, volume, ways_out
 
 NOT_PERIODIC, TOO_ROUGH = 3, 4
@@ -80,7 +81,7 @@ def follow(chamber, table, ports, trail, pressure, tolerance, along, totals):
     Filled: `along` (T, TRAIL), the steps of this chamber, and totals (INTEGRALS,).
     """
     c = chamber[0]
-    scale = tolerance * (abs(c.delivery_pressure - c.inlet_pressure) + 1e5)
+    scale = tolerance * pressure_span(c.delivery_pressure, c.inlet_pressure)
     work_scale = scale * c.piston_area * 2.0 * c.stroke_scale
     stages, ways, flows = np.empty((STAGES, COLUMNS)), np.empty(WAYS), np.empty(PATHS)
     begin, first = trail[0, BEGIN], trail[0, STAGE + 1 : STAGE + KEPT]

@@ -47,26 +47,12 @@ def slipper_conductance(
     """Leakage of one slipper per pascal: capillary orifice and parallel disc lands in series; paper Eq. (16).
 
     G = pi d^4 h^3/(mu [6 d^4 ln(r2/r1) + 128 h^3 l_o]), ln(r2/r1) the log_ratio, of several lands the sum.
-    Laminar in both; see `slipper_leakage_short_orifice`.
+    Laminar in both; an orifice shorter than some ten diameters also has the entry and exit loss of
+    `gaps.films.slipper.orifice_and_capillary`.
     """
     d4, h3 = orifice_diameter**4, film_thickness**3
     resistance = 6.0 * d4 * log_ratio + 128.0 * h3 * orifice_length
     return np.pi * d4 * h3 / (viscosity * resistance)
-
-
-def slipper_leakage_short_orifice(
-    pressure_drop: Array | float, conductance: float, orifice_diameter: float, flow_coefficient: float, density: float
-) -> Array:
-    """Leakage of one slipper in m3/s when its orifice also has an entry and exit loss.
-
-    Solves dp = q/G + rho/2 (q/(Cd A_o))^2 for q, of the sign of dp, G from `slipper_conductance`. For orifices
-    too short for the capillary of Eq. (16) alone (length below some ten diameters).
-    """
-    drop = np.asarray(pressure_drop, dtype=float)
-    area = np.pi / 4.0 * orifice_diameter**2
-    quadratic = 0.5 * density / (flow_coefficient * area) ** 2
-    root = np.sqrt(1.0 / conductance**2 + 4.0 * quadratic * np.abs(drop))
-    return np.asarray(2.0 * drop / (1.0 / conductance + root))
 
 
 def valve_plate_conductance(

@@ -102,9 +102,10 @@ def tipping_share(pistons: int) -> float:
     return float(across / (1.0 + across))
 
 
-def uniform_normal_force(spring: float, guide: BallGuide, swash_angle: float) -> float:
+def uniform_normal_force(spring: float, guide: BallGuide, tilt_cosine: float) -> float:
     """Sum of the contact's normal forces in N, spread evenly; paper Eq. (23) without its friction term.
 
     Eq. (23) alone does not fix the distribution. An even one gives sum F_n = F_s/(sin(l) cos(g)).
+    tilt_cosine: cos(g).
     """
-    return float(spring / (np.sin(guide.contact_latitude) * np.cos(swash_angle)))
+    return float(spring / (np.sin(guide.contact_latitude) * tilt_cosine))

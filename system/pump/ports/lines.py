@@ -89,11 +89,6 @@ class Lines:
     suction: Line = HeldPressure()
 
 
-def volume_impedance(volume: float, bulk_modulus: float, frequency: Array) -> NDArray[np.complex128]:
-    """Z = K/(i w V), Pa s/m3, of a closed volume V (m3) of oil at frequencies in Hz; small ripple, no waves."""
-    return np.asarray(bulk_modulus / (2j * np.pi * frequency * volume))
-
-
 def _hold(where: str, found: float, holds: bool, unit: str, expected: str) -> None:
     if not holds:
         raise ValueError(f"{where}: found {found:.3g} {unit}, expected {expected}")

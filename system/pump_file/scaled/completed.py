@@ -9,9 +9,11 @@ from typing import Any
 from system.description.assumptions import Assumption
 from system.description.pump import FORMAT
 from system.inputs.faults import Fault, InputFaults
-from system.inputs.units import Dimension, format_quantity, parse_quantity
+from system.inputs.units import Dimension, format_quantity
 from system.pump_file.scaled.facts import facts_of
+from system.pump_file.scaled.open_circuit import open_circuit_values
 from system.pump_file.scaled.scaling import SIZED, scaled_tables
+from system.pump_file.tables import pump_of_tables
 
 NEEDED = ("slipper", "valve_plate", "ports")
 """Tables without which a pump file is a scant one."""
@@ -19,10 +21,7 @@ WIDE = "wide, since the pump is scaled from another"
 SCALED = "REF90's, scaled to displacement and pistons"
 TAKEN = "REF90's"
 OPEN = "usual in an open circuit"
-"""Reasons of assumptions: of a tolerance, of a value that scales with the size, of one that does not, of a circuit."""
-STIFFER = 2.0
-"""Springs of an open circuit over those of a closed one, whose inlet pressure presses slippers on the plate."""
-
+"""Reasons of assumptions: of a tolerance, of a value that goes with the size, of one that does not, of a circuit."""
 _WIDE: dict[str, float | str] = {
     "film_thickness": 0.5,
     "eccentricity_ratio": 0.2,
@@ -48,17 +47,15 @@ class Completed:
     assumptions: tuple[Assumption, ...]
 
     def in_open_circuit(self) -> Completed:
-        """Return the pump with an inlet from a tank, a drain without pressure, and a spring that holds the slippers."""
-        preload = parse_quantity(self.tables["ball_guide"]["spring_preload"], Dimension.FORCE)
-        values = {
-            "operating.inlet_pressure": "0 MPa",
-            "operating.case_pressure": "0.03 MPa",
-            "ball_guide.spring_preload": format_quantity(STIFFER * preload, Dimension.FORCE, digits=4),
-        }
+        """Return the pump with inlet, case, spring and ports of one that draws from a tank."""
+        values = open_circuit_values(pump_of_tables(self.tables["name"], self.tables))
         tables = {name: dict(own) if isinstance(own, dict) else own for name, own in self.tables.items()}
         for path, value in values.items():
-            table, _, key = path.partition(".")
-            tables[table][key] = value
+            *sections, key = path.split(".")
+            table: Any = tables
+            for section in sections:
+                table = table.setdefault(section, {})
+            table[key] = value
         others = [one for one in self.assumptions if one.path not in values]
         taken = [Assumption(path, value, OPEN) for path, value in values.items()]
         return Completed(tables, self.stated, (*others, *taken))

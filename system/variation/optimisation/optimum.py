@@ -9,6 +9,7 @@ from pathlib import Path
 from reynolds.errors import NotConverged
 from system.inputs.faults import Fault, InputFaults
 from system.variation.optimisation.checks import constraint_faults
+from system.variation.optimisation.ending import Ending
 from system.variation.optimisation.obstacles import Obstacles, obstacles
 from system.variation.optimisation.pareto import ParetoSet, pareto_set
 from system.variation.optimisation.problem import Design, Problem
@@ -18,8 +19,8 @@ from system.work.kept_results import KeptPoints
 from system.work.progress import Report
 from system.work.tasks import Executor, PartStatus
 
-Search = Callable[[Trials], None]
-"""Tries designs until it ends."""
+Search = Callable[[Trials], Ending | None]
+"""Tries designs until it ends; None where its number of designs alone ends it."""
 
 
 @dataclass(frozen=True)
@@ -27,7 +28,8 @@ class Optimisation:
     """Result of a search; problem: with the values of constraints that the start gives.
 
     start: the pump as stated; designs: all that were tried, in their order. obstacles: None where no design has a
-    result; internal: the reason of an error of the program at a design, else ""; seconds of processor time.
+    result; ending: of the search, None where its number of designs alone ended it; internal: the reason of an error of
+    the program at a design, else ""; seconds of processor time.
     """
 
     problem: Problem
@@ -35,6 +37,7 @@ class Optimisation:
     designs: tuple[Design, ...]
     pareto: ParetoSet
     obstacles: Obstacles | None
+    ending: Ending | None
     internal: str
     seconds: float
 
@@ -71,11 +74,11 @@ def optimise(
     if faults := list(_start_faults(work, problem)):
         raise InputFaults("optimisation", faults)
     trials = Trials(work, problem, folder, executor, report, expected, earlier)
-    search(trials)
+    ending = search(trials)
     designs = tuple(trials.designs)
     internal = next((one.reason for one in designs if one.status is PartStatus.INTERNAL), "")
     best, blocked = pareto_set(problem, designs), obstacles(problem, designs)
-    return Optimisation(problem, start, designs, best, blocked, internal, trials.seconds + outcome.seconds)
+    return Optimisation(problem, start, designs, best, blocked, ending, internal, trials.seconds + outcome.seconds)
 
 
 def _start_faults(work: VariedWork, problem: Problem) -> Iterator[Fault]:

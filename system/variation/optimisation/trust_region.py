@@ -11,6 +11,7 @@ import numpy as np
 from scipy.optimize import minimize
 
 from reynolds.numerics.arrays import Array
+from system.variation.optimisation.ending import Ending, ending
 from system.variation.optimisation.problem import MET, Design, Problem
 from system.variation.optimisation.trials import Trials
 
@@ -20,7 +21,7 @@ REFUSED = 1.0
 """Objective of a design without a result beside the start, and violation of its constraints, both relative."""
 
 
-def approach(trials: Trials, designs: int, last: float) -> None:
+def approach(trials: Trials, designs: int, last: float) -> Ending:
     """Try at most so many designs from the start, moved into the bounds, until the region is as small as `last`.
 
     last: radius of the region, of the bounds' distance: the wider, the larger the noise of a fidelity.
@@ -36,11 +37,12 @@ def approach(trials: Trials, designs: int, last: float) -> None:
         return _numbers(problem, design, origin)
 
     constraints = [{"type": "ineq", "fun": lambda place: numbers(place)[1:]}] if problem.constraints else []
-    minimize(
+    found = minimize(
         lambda place: float(numbers(place)[0]), start, method="COBYQA", constraints=constraints,
         bounds=[(0.0, 1.0)] * len(problem.space),
         options={"maxfev": designs - moved, "initial_tr_radius": FIRST, "final_tr_radius": last},
     )  # fmt: skip
+    return ending(found)
 
 
 def fewest_designs(dimensions: int) -> int:

@@ -12,6 +12,7 @@ import pytest
 from recording_heads import HEAD
 
 from swashfilm.__main__ import main
+from swashfilm.runs.calibrate.answer import calibrate_answer
 from system import SIMULATED, BenchPoints, EffectId, Extension, LumpedBench, entry_of, load_pump
 from system.bench.calibration.equation_21 import paper_priors
 
@@ -128,3 +129,18 @@ def test_friction_over_the_hersey_number_is_found_where_it_is(tmp_path: Path) ->
 def test_what_is_wrong_is_told(words: list[str], told: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(words) == 2
     assert told in capsys.readouterr().err
+
+
+def test_the_answer_tells_the_scatter_that_the_readings_show() -> None:
+    """A pull of zero, of readings as they are written, and readings met exactly are no scatter of one."""
+
+    def row(channel: str, measured: str, fitted: str, pull: str) -> dict[str, str]:
+        return {"channel": channel, "unit": "N m", "measured": measured, "fitted": fitted, "pull": pull}
+
+    rows = [row("torque", "100", "98", "2"), row("torque", "100.001", "100", "0"), row("Q_out", "80", "80", "0")]
+    summary = {"readings": 3, "points": 2, "hersey": None}
+    answer = calibrate_answer(summary, [], rows)
+    notes = [tile.note for tile in answer.tiles if "error of the fit" in tile.name]
+    assert notes == ["rms; scatter of the meter 1 N m", "rms; every reading is met exactly"]
+    assert "Beyond the scatter of its meter is" in answer.words
+    assert "(1.4 times)" in answer.words

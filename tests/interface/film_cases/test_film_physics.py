@@ -13,6 +13,7 @@ from reynolds import Barus, BulkModulus, Cavitation, RationalDensity, Roelands
 from reynolds.laws.density import DOWSON_HIGGINSON, Tait
 from swashfilm.__main__ import main
 from swashfilm.case.file import FilmCase, load_case
+from swashfilm.case.tables.time_steps import TimeStepsSection
 from swashfilm.runs.film.fields.history import fields_over_time
 from swashfilm.runs.film.solve.study import solve_case
 from swashfilm.runs.film.summary import film_summary
@@ -179,6 +180,14 @@ def test_a_viscosity_that_falls_with_temperature_needs_no_grade(read):
     warm = film_summary(solve_case(read(GIVEN + "[oil]" + oil + WALLS)))
     assert warm["temperature_max_K"] > 323.15
     assert warm["dissipation_W"] < cold["dissipation_W"]
+
+
+@pytest.mark.parametrize(("step", "steps"), [(1e-3, 4), (1.7e-3, 3), (1.2e-3, 4), (4e-3, 1)])
+def test_no_step_is_longer_than_stated(step, steps):
+    """Equal steps end at the end of the time, as a march takes them."""
+    section = TimeStepsSection(end=4e-3, step=step)
+    assert section.steps == steps
+    assert section.step_taken <= step * (1.0 + 1e-9)
 
 
 def test_a_transient_leaves_its_films_and_its_history(tmp_path, monkeypatch):
@@ -360,6 +369,14 @@ def test_a_warm_body_takes_the_heat_and_grows_into_the_film(read):
         ),
         (GIVEN.replace('"10 um"', '"1e-5*(1 + t)"'), "film.thickness", ["needs a table [time]"]),
         (GIVEN.replace('"1 bar"', '"1e5*x"') + TIME, "boundary.left.pressure", ["a formula of t"]),
+        (
+            GIVEN.replace('"1 bar"', '"1e5*(1 - 1000*t)"') + TIME, "boundary.left.pressure",
+            ["-100 kPa at 0.002 s", "at least the cavitation pressure"],
+        ),
+        (
+            GIVEN.replace('"1 bar"', '"1e7*t", film_fraction = 0.5') + TIME, "boundary.left.pressure",
+            ["10 kPa at 0.001 s", "full film"],
+        ),
         (GIVEN + "[contact]\n", "contact", ["no table [roughness]"]),
         (GIVEN + ROUGH.replace('"0.3 um"', '"-1 um"'), "roughness.moving", ["at least 0 mm"]),
         (GIVEN + ROUGH + "peklenik = 20\n", "roughness.peklenik", ["20"]),

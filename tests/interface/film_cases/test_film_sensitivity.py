@@ -10,8 +10,10 @@ import pytest
 import xarray
 
 import swashfilm as sf
+from reynolds import InputError
 from swashfilm.__main__ import main
 from swashfilm.case.file import load_case
+from swashfilm.runs.film.solve import growth
 from swashfilm.runs.film.solve.gap import case_gap
 from swashfilm.runs.film.solve.study import solve_case
 
@@ -143,6 +145,24 @@ def test_gaps_of_a_pump_by_their_position_and_shapes(case, walls):
     assert found["load_N"]["by_film_thickness_m"] == pytest.approx(expected, rel=1e-4)
     assert near.problem.walls is None  # as it is written: of its deformed shape
     assert any(key.startswith("by_face_") for key in found["load_N"])
+
+
+def test_a_parameter_without_a_derivative_is_named_with_the_reason(case, monkeypatch):
+    """Below zero a root is no number; a shape ends beside its value."""
+    text = SLIDER.replace("h0*(1", "h0*(sqrt(edge) + 1", 1).replace("[constants]", "[constants]\nedge = 0.0")
+    run = sf.film(case(text), sensitivity="load")
+    found = run.summary["sensitivity"]
+    assert found["left_out"] == {"constants.edge": "the thickness beside its value is no number"}
+    assert "by_constants.h0" in found["outputs"]["load_N"]
+    assert ("every output", "edge", "left out: the thickness beside its value is no number", "") in run.tables()[-1][1]
+
+    def ends(shape, value):
+        raise InputError("edge relief", "no width", "two places apart")
+
+    monkeypatch.setattr(growth, "_differences", ends)
+    left_out = sf.film(case(SLIPPER.format(walls="rigid"), "slipper"), sensitivity="load").summary["sensitivity"]
+    why = left_out["left_out"]["face_edge_relief_end_m"]
+    assert why == "its value is at an end of its range: edge relief: no width; expected two places apart"
 
 
 def test_the_example_finds_rayleighs_step(capsys):

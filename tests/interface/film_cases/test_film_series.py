@@ -122,7 +122,9 @@ def test_a_study_without_any_result_ends_with_3(monkeypatch):
     monkeypatch.setattr(film_series, "solve_case", stall)
     written(SPEEDS)
     assert main(["film", "slider.toml", "-o", "run"]) == 3
-    assert {point["reason"] for point in summary_of("run")["failed"]} == {"it stalls. Try: something else"}
+    summary = summary_of("run")
+    assert {point["reason"] for point in summary["failed"]} == {"it stalls. Try: something else"}
+    assert summary["mass_balance_error_max"] is None
 
 
 def test_an_interrupted_study_goes_on_where_it_stopped(monkeypatch, capsys):

@@ -1,10 +1,13 @@
 """Load of a film unrolled from a cylinder: a vector, as closed forms of journal bearings give it."""
 
+import json
 import math
 
 import pytest
 
 import swashfilm as sf
+from swashfilm.__main__ import main
+from swashfilm.output.data.files import read_columns
 from system import InputFaults
 
 RADIUS, LENGTH, CLEARANCE, SPEED, VISCOSITY = 25e-3, 10e-3, 50e-6, 2.5, 0.03
@@ -34,6 +37,36 @@ def test_a_full_film_without_side_flow_bears_sommerfelds_load_across_the_line_of
     assert found["attitude_angle_deg"] == pytest.approx(90.0, abs=1e-6)
     coefficient = CLEARANCE / RADIUS * (1.0 + 2.0 * ratio**2) / (3.0 * ratio)
     assert found["friction_coefficient"] == pytest.approx(coefficient, rel=2e-3)
+
+
+def test_the_sensitivity_of_a_journal_is_that_of_its_load_as_a_vector(tmp_path, capsys):
+    """The slope by the eccentricity is that of Sommerfeld's load; the plane's integral and moments are refused."""
+    text = LONG.replace("RATIO", "e").replace("[boundary]", "[constants]\ne = 0.5\n[boundary]", 1)
+    found = sf.film(text, sensitivity="bearing_load").summary["sensitivity"]["outputs"]["bearing_load_N"]
+    scale = 12.0 * math.pi * VISCOSITY * SPEED * LENGTH * (RADIUS / CLEARANCE) ** 2
+    slope = scale * (2.0 - 0.5**2 + 2.0 * 0.5**4) / ((2.0 + 0.5**2) ** 2 * (1.0 - 0.5**2) ** 1.5)
+    assert found["by_constants.e"] == pytest.approx(slope, rel=3e-3)
+    case = tmp_path / "journal.toml"
+    case.write_text(text, encoding="utf-8")
+    assert main(["film", str(case), "--sensitivity", "load,moment_x"]) == 2
+    told = capsys.readouterr().err
+    assert "'load'" in told
+    assert "'moment_x'" in told
+    assert "bearing_load" in told
+
+
+def test_a_journal_over_time_keeps_its_load_as_a_vector(tmp_path):
+    """Without squeeze and cavity each step is the steady film: history and range over time are Sommerfeld's load."""
+    case = tmp_path / "journal.toml"
+    text = LONG.replace("RATIO", "0.5").replace("[boundary]", '[time]\nend = "2 ms"\nstep = "1 ms"\n[boundary]')
+    case.write_text(text.replace("format = 1\n[film]", "format = 1\n[film]\ninitial_film_fraction = 1.0"))
+    assert main(["film", str(case), "-o", str(tmp_path / "run")]) == 0
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text("utf-8"))
+    steps = read_columns(tmp_path / "run" / "history.csv")
+    for end in ("min", "max"):
+        assert summary[f"load_of_time_{end}_N"] == pytest.approx(summary["bearing_load_N"], rel=1e-9)
+    assert steps["bearing load"][-1] == pytest.approx(summary["bearing_load_N"], rel=1e-6)
+    assert steps["attitude angle"][-1] == pytest.approx(math.radians(90.0), abs=1e-6)
 
 
 @pytest.mark.parametrize(

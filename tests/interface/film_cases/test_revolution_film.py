@@ -4,6 +4,7 @@ import csv
 import json
 import re
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from swashfilm.__main__ import main
 from swashfilm.case.gap.revolution import RevolutionCase
 from swashfilm.case.study import load_film
 from swashfilm.runs.film.revolution.solve import revolution_summary, solve_revolution
+from swashfilm.runs.film.revolution.validity import _motion
 from swashfilm.runs.film.series import points as film_series
 from system import InputFaults, lumped_point
 
@@ -302,3 +304,16 @@ def test_a_turn_that_does_not_settle_says_where(capsys):
     told = capsys.readouterr().err
     assert re.search(r"after \d+(\.\d+)? deg: .*piston at .* s: walls that touch", told)
     assert not Path("out").exists()
+
+
+@pytest.mark.parametrize(
+    ("multiplier", "told"),
+    [(1.5 + 0.0j, "another, stable one may exist"), (1.5j, "once round in 4 turns"), (-1.5 + 0.0j, "in 2 turns")],
+)
+def test_a_disturbance_that_grows_straight_away_does_not_whirl(multiplier, told):
+    """A real positive multiplier turns nothing: no turns once round are told."""
+    closing = SimpleNamespace(largest_multiplier=1.5, multipliers=np.array([multiplier, 0.1]))
+    found = SimpleNamespace(closing=closing, turn=SimpleNamespace(step_error=0.0))
+    ((name, text),) = _motion(None, found, 0.0)
+    assert name == "motion_unstable"
+    assert told in text

@@ -10,7 +10,7 @@ from jsonschema import Draft202012Validator
 import swashfilm as sf
 from swashfilm.__main__ import main
 from swashfilm.console.schemas import schema_of
-from system import check_pump, load_pump
+from system import check_pump, load_pump, lumped_point, operating_point
 from system.inputs.toml_table import read_toml
 from system.pump_file.file import load_known_pump
 
@@ -37,6 +37,21 @@ def test_a_new_pump_is_complete_and_sound(tmp_path, circuit, displacement, pisto
         warning.path for warning in check_pump(load_pump("ref90")).warnings
     }
     assert not list(Draft202012Validator(schema_of("pump")).iter_errors(read_toml(path)[1]))
+
+
+@pytest.mark.parametrize(
+    ("displacement", "pistons", "speed", "pressure"),
+    [("18 cm3", 7, "3000 rpm", "250 bar"), ("71 cm3", 9, "2600 rpm", "28 MPa"), ("250 cm3", 9, "1500 rpm", "350 bar")],
+)
+def test_the_ports_of_an_open_circuit_neither_starve_nor_trap_a_chamber(
+    tmp_path, displacement, pistons, speed, pressure
+):
+    rating = {"displacement": displacement, "pistons": pistons, "speed": speed, "pressure": pressure}
+    pump = load_pump(_written(tmp_path, circuit="open", **rating))
+    for share, ratio in ((1.0, 1.0), (0.5, 1.0), (1.0, 0.3)):
+        part = pump.pump
+        at = operating_point(pump, delivery_pressure=share * part.rated_pressure, displacement_ratio=ratio)
+        assert not {remark.warning for remark in lumped_point(pump, at).warnings}
 
 
 def test_it_is_the_scaled_pump_of_the_same_facts(tmp_path):
@@ -76,7 +91,7 @@ def test_two_viscosities_in_place_of_a_grade(tmp_path):
     assert (oil.kinematic_viscosity_40C, oil.kinematic_viscosity_100C) == (46e-6, 6.8e-6)
 
 
-@pytest.mark.parametrize("short", ["VG 46", "iso vg 46", "VG46", "46"])
+@pytest.mark.parametrize("short", ["VG 46", "iso vg 46", "VG46", "46", "HLP 46", "HLP46", "hm 46", "HLPD 46"])
 def test_short_names_of_a_grade(tmp_path, short):
     assert 'grade = "ISO VG 46"' in _written(tmp_path, oil=short).read_text("utf-8")
 

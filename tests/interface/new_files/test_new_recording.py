@@ -100,7 +100,7 @@ def test_a_time_series_is_taken_as_one(tmp_path):
         ("Outlet Pressure [psi]", "p_out", "psi"),
         ("p_in [bar abs]", "p_in", "bar"),
         ("Case Drain Flow (gallon/min)", "Q_case", "gallon/min"),
-        ("Shaft speed [1/min]", "speed", "rpm"),
+        ("Shaft speed [1/min]", "speed", "1/min"),
         ("nMot", "speed", "rpm"),
         ("T_Leck_degC", "T_case", "degC"),
         ("Temp. Austritt [°C]", "T_out", "degC"),

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from swashfilm.output.figures import FEWEST_PIXELS, LARGE, compact, figure_of, svg_of
+from swashfilm.output.figures import FEWEST_PIXELS, LARGE, compact, figure_of
 from swashfilm.output.scenes.field_maps import draw_map
 
 pytestmark = pytest.mark.usefixtures("rendered")
@@ -38,8 +38,8 @@ def test_a_figure_is_drawn_once_and_left_on_its_canvas(figure):
 
 def test_a_small_figure_is_an_svg_and_a_large_one_pixels():
     small = compact(lines(10))
-    assert small == svg_of(lines(10))
-    assert len(small) <= LARGE < len(svg_of(lines(2000)))
+    assert small.startswith(b"<?xml")
+    assert len(small) <= LARGE
     for points in (2000, 9000):
         assert Image.open(io.BytesIO(compact(lines(points)))).size == (540, 270)
 

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from blank_pictures import rendered_figures
 
+import swashfilm as sf
 from swashfilm.output.answer import Answer, Tile
 from swashfilm.output.figures import figure_of
 from swashfilm.output.page import inlined, write_page
@@ -66,7 +67,7 @@ def map_data() -> MapData:
     }  # fmt: skip
     text = [np.full(speed.shape, word) for word in ("solved", "")]
     remarks = objects([()] * speed.size, speed.shape)
-    return MapData("toy", "closed form", 1.6e9, axes, values, *text, remarks)
+    return MapData("toy", "closed form", 1.6e9, axes, values, *text, remarks, {})
 
 
 def film_explorer() -> Explorer:
@@ -379,6 +380,30 @@ def test_a_curve_keeps_its_panel_labels_and_limits() -> None:
     assert found.layout.yaxis.title.text == "pressure, gauge [MPa]"
     assert found.data[0].line.color == "#1c2328"
     assert found.data[0].legend == "legend"
+
+
+def test_titles_of_a_figure_are_below_its_buttons() -> None:
+    """A figure with a title is higher by the buttons, which would cover the title of a narrow one."""
+    heights = []
+    for title, above in (("", 0), ("B - A / percentage points", 30)):
+        figure = curve_figure()
+        figure.axes[0].set_title(title)
+        figure.draw_without_rendering()
+        found = touchable(figure)
+        assert found is not None
+        assert found.layout.margin.t == above
+        heights.append(found.layout.height)
+    assert heights[1] == heights[0] + 30
+
+
+@in_browser
+def test_the_costs_of_a_sensitivity_fit_a_screen_of_1400_pixels(browser: Any, tmp_path: Path) -> None:
+    """Nine columns; without the room to the right of the text and their smaller letters the last ones are cut."""
+    found = sf.sensitivity("ref90", keys="valve_plate.*,friction.*,oil.*,ports.*").save(tmp_path / "run")
+    tab = opened_in(browser, found / "report.html", [], viewport={"width": 1400, "height": 900})
+    beyond = "(() => { const own = document.querySelector('.wide'); return own.scrollWidth - own.clientWidth })()"
+    assert tab.evaluate(beyond) == 0
+    tab.context.close()
 
 
 def test_a_long_line_keeps_its_extremes() -> None:

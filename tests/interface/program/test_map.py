@@ -3,6 +3,7 @@
 import csv
 import json
 import re
+import shutil
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,6 +13,7 @@ import pytest
 import xarray
 from bench_pump import BENCH
 
+import swashfilm as sf
 from reynolds import NotConverged
 from swashfilm.__main__ import main
 from swashfilm.console.levels import map_axis
@@ -20,6 +22,7 @@ from swashfilm.runs.compare.run import Side, fidelity_warnings
 from swashfilm.runs.map.contour_levels import efficiency_levels
 from swashfilm.runs.map.duty.cycle_file import read_cycle
 from swashfilm.runs.map.files import read_map
+from swashfilm.runs.map.page import best_rows
 from system import Fault
 from system.maps import point as map_point
 from system.maps.plan import MapInput
@@ -52,6 +55,10 @@ def no_pictures(run, monkeypatch):
         ("60 rpm, 1..3rpm:2", MapInput.SPEED, [1, 3, 60]),
         ("0.28,1,.5", MapInput.RATIO, [0.28, 0.5, 1.0]),
         ("0.2..1:5", MapInput.RATIO, [0.2, 0.4, 0.6, 0.8, 1.0]),
+        ("28,51,100%", MapInput.RATIO, [0.28, 0.51, 1.0]),
+        ("20..100%:3", MapInput.RATIO, [0.2, 0.6, 1.0]),
+        ("1000,1300 1/min", MapInput.SPEED, [1000, 1300]),
+        ("20,35Hz", MapInput.SPEED, [1200, 2100]),
     ],
 )
 def test_levels_are_read(text, given, levels):
@@ -65,7 +72,6 @@ def test_levels_are_read(text, given, levels):
         ("5-35MPa", MapInput.PRESSURE, "5..35MPa:7"),
         ("5..35MPa", MapInput.PRESSURE, "5MPa..35MPa:7"),
         ("5..35", MapInput.PRESSURE, ""),
-        ("80%", MapInput.RATIO, "0.8"),
     ],
 )
 def test_habits_get_a_remedy(text, given, remedy):
@@ -157,6 +163,32 @@ def test_an_interrupted_map_goes_on(run, tmp_path, monkeypatch, capsys):
     assert (summary["kept"], summary["solved"]) == (35, 54)
 
 
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["--fidelity", "lumped"], "no point is finished, one takes about 0.006 s of processor time"),
+        (["--fidelity", "fixed", "--direct"], "no point is finished, one takes about 2 s of processor time"),
+    ],
+)
+def test_a_map_stopped_before_its_first_point_says_so(words, told, tmp_path, monkeypatch, capsys):
+    def stopped(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("swashfilm.runs.map.run.run_kept", stopped)
+    assert main(["map", str(BENCH), *words, "--workers", "1", "-o", str(tmp_path / "stopped")]) == 130
+    assert told in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_grid_too_large_is_refused_before_its_points_are_made(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr("system.maps.plan.check_operating_point", lambda *_: pytest.fail("a point is checked"))
+    words = ["--speeds", "500..2100rpm:400", "--pressures", "5..35MPa:400", "--fidelity", "lumped"]
+    assert main(["map", str(BENCH), *words, "-o", str(tmp_path / "large")]) == 2
+    told = capsys.readouterr().err
+    assert "640000, levels 400 of shaft speed x 400 of delivery pressure x 4 of displacement ratio" in told
+    assert "at most 100000 points" in told
+
+
 def test_a_point_that_fails_stops_no_other(tmp_path, monkeypatch, capsys):
     solve = map_point.LumpedSolver.solve
 
@@ -175,6 +207,24 @@ def test_a_point_that_fails_stops_no_other(tmp_path, monkeypatch, capsys):
     assert main(["duty", str(tmp_path / "run"), str(tmp_path / "cycle.csv"), "-o", str(tmp_path / "d")]) == 2
     assert "points without a result" in capsys.readouterr().err
     assert main(["map", str(BENCH), *SMALL[:4], "--pressures", "20MPa", "-o", str(tmp_path / "none")]) == 3
+    assert json.loads((tmp_path / "none" / "summary.json").read_text())["energy_balance_error_max"] is None
+
+
+def test_fresh_points_that_fail_are_told(tmp_path, monkeypatch):
+    """The error between levels says nothing of them: number, the first with its reason, and the remedy."""
+    solve = map_point.LumpedSolver.solve
+
+    def stalls(self, pump, point):
+        if point.delivery_pressure not in (10e6, 20e6, 30e6):
+            raise NotConverged("made to fail")
+        return solve(self, pump, point)
+
+    monkeypatch.setattr(map_point.LumpedSolver, "solve", stalls)
+    assert main(["map", str(BENCH), *SMALL, "-o", str(tmp_path / "run")]) == 0
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text())
+    (warning,) = (one for one in summary["warnings"] if one.startswith("points_failed"))
+    assert "3 of 4 fresh points have no result and are left out of the error between levels, such as " in warning
+    assert "made to fail; add levels on both sides of it" in warning
 
 
 @pytest.mark.parametrize(
@@ -256,6 +306,17 @@ def test_contours_of_efficiencies_are_close_by_the_best(least, most):
     assert steps[0] >= steps[-1] > 0.0
 
 
+def _has_a_page_at_standstill(folder, summary):
+    """A cycle without energy in, out and lost has a page that says why it has no mean efficiency."""
+    still = folder.parent / "still"
+    shutil.copytree(folder, still)
+    energies = {words: {"value": 0.0, "error": 0.0} for words in summary["energy_J"]}
+    void = {name: one | {"value": None, "error": None} for name, one in summary["efficiency"].items()}
+    (still / "summary.json").write_text(json.dumps(summary | {"energy_J": energies, "efficiency": void}))
+    assert main(["report", str(still)]) == 0
+    assert "It has no mean efficiency: the pump stands still or motors" in (still / "report.html").read_text()
+
+
 def test_duty_and_compare_leave_their_pages(run, tmp_path, capsys):
     cycle = tmp_path / "cycle.csv"
     cycle.write_text(
@@ -275,6 +336,7 @@ def test_duty_and_compare_leave_their_pages(run, tmp_path, capsys):
     assert step == pytest.approx([28.0, 15.0])
     assert summary["energy_J"]["loss"]["error"] < 0.05 * summary["energy_J"]["loss"]["value"]
     assert main(["report", str(tmp_path / "duty")]) == 0
+    _has_a_page_at_standstill(tmp_path / "duty", summary)
     other = tmp_path / "worn.toml"
     other.write_text(
         (run / "resolved.toml").read_text().replace('radial_clearance = "15 um"', 'radial_clearance = "25 um"')
@@ -319,6 +381,98 @@ def test_maps_of_unlike_fidelities_get_a_named_warning(run):
     assert not [*fidelity_warnings((both[0], both[0]))]
 
 
+def test_points_beyond_the_rating_are_told_by_all_three_in_the_same_words(tmp_path, capsys):
+    """A map, a cycle by it, and a comparison with a pump of a lower rating."""
+    place, other = tmp_path / "map", tmp_path / "other.toml"
+    levels = [
+        "--fidelity",
+        "lumped",
+        "--speeds",
+        "1000..2000rpm:3",
+        "--pressures",
+        "20,30,40MPa",
+        "--displacements",
+        "1",
+    ]
+    assert main(["map", str(BENCH), *levels, "-o", str(place)]) == 0
+    rated = "limit rated_pressure, 35 MPa (films and coefficients are extrapolated); stay below it"
+    assert f"operating.pressure: at 3 of 9 points; at the first: 40 MPa gauge, {rated}" in capsys.readouterr().out
+    cycle = tmp_path / "cycle.csv"
+    head = "time [s],speed [rpm],pressure [bar],displacement ratio [1]\n"
+    cycle.write_text(head + "0,1500,250,1\n9,1500,380,1\n10,1500,390,1\n")
+    assert main(["duty", str(place), str(cycle), "-o", str(tmp_path / "duty")]) == 0
+    told = f"operating.pressure: at 2 of 3 rows of the cycle; at the first: 38 MPa gauge, {rated}"
+    assert told in capsys.readouterr().out
+    text = (place / "resolved.toml").read_text()
+    other.write_text(re.sub('rated_pressure = ".*"', 'rated_pressure = "25 MPa"', text))
+    assert main(["compare", str(place), str(other), "--cycle", str(cycle), "-o", str(tmp_path / "cmp")]) == 0
+    out = capsys.readouterr().out
+    assert f", at 3 of 9 points; at the first: 40 MPa gauge, {rated}" in out
+    assert ", at 6 of 9 points; at the first: 30 MPa gauge, limit rated_pressure, 25 MPa" in out
+    assert "at 2 of 3 rows of the cycle; at the first: 38 MPa gauge, limit rated_pressure, 25 MPa" in out
+
+
+def test_rows_of_efficiency_begin_with_iso_4409_and_are_short(run, capsys):
+    summary = json.loads((run / "summary.json").read_text())
+    first, *others = (row[0] for row in best_rows(summary))
+    assert first.startswith("overall efficiency (ISO 4409)")
+    assert all(len(one) < 70 and one.startswith("overall efficiency (") for one in (first, *others))
+    titles = dict(sf.open(run).tables())
+    assert titles["Displacement"][0] == ("displacement ratio", "geometric", "swept", "by Toet (ISO 8426-1)")
+
+
+def test_a_cycle_tells_the_points_with_a_warning_that_it_passes(tmp_path, capsys):
+    """A friction law below its speeds at 3 of 9 points, beside which the cycle is half of its time."""
+    levels = ["--fidelity", "lumped", "--speeds", "300,1000,2000rpm", "--pressures", "10,20,30MPa"]
+    assert main(["map", str(BENCH), *levels, "--displacements", "1", "-o", str(tmp_path / "map")]) == 0
+    cycle = tmp_path / "cycle.csv"
+    rows = "0,600,200,1\n5,600,200,1\n5,1500,200,1\n10,1500,200,1\n"
+    cycle.write_text("time [s],speed [rpm],pressure [bar],displacement ratio [1]\n" + rows)
+    capsys.readouterr()
+    assert main(["duty", str(tmp_path / "map"), str(cycle), "-o", str(tmp_path / "duty")]) == 0
+    told = "friction_at_low_speed: at 3 of 9 points of the map, beside which the cycle spends 50.0% of its time"
+    out = capsys.readouterr().out
+    assert told in out
+    assert "the shaft turns at 300 rpm (limit 500 rpm" in out
+
+
+def test_the_error_of_a_duty_cycle_is_named(run, tmp_path, capsys):
+    """In the table, the tiles and the words: of interpolation, not of the pump's model."""
+    cycle = tmp_path / "cycle.csv"
+    cycle.write_text("time [s],speed [rpm],pressure [bar],displacement ratio [1]\n0,1500,250,1\n9,1500,300,1\n")
+    assert main(["duty", str(run), str(cycle), "-o", str(tmp_path / "duty")]) == 0
+    out = capsys.readouterr().out
+    assert "interpolation error  mean power" in out
+    assert "interpolation error [percentage points]" in out
+    page = (tmp_path / "duty" / "report.html").read_text().replace("\u00a0", " ")
+    assert re.search(r"interpolation error [\d.e-]+ percentage points", page)
+
+
+def test_pumps_of_two_sizes_are_compared_free_of_size(run, tmp_path, capsys):
+    """A pump beside itself has no such rows; one of another stroke has shares, torque and flow over displacement."""
+    assert main(["compare", str(run), str(run), "-o", str(tmp_path / "same")]) == 0
+    assert json.loads((tmp_path / "same" / "summary.json").read_text())["specific"] == []
+    assert "two sizes" not in capsys.readouterr().out
+    other = tmp_path / "other.toml"
+    text = (run / "resolved.toml").read_text()
+    text = re.sub('(?m)^displacement = "[^"]*".*\n', "", text)
+    other.write_text(re.sub('swash_angle_max = "[^"]*"', 'swash_angle_max = "12 deg"', text))
+    assert main(["compare", str(run), str(other), "-o", str(tmp_path / "cmp")]) == 0
+    assert "Pumps of two sizes: losses as shares of the shaft power at the same point" in capsys.readouterr().out
+    summary = json.loads((tmp_path / "cmp" / "summary.json").read_text())
+    one, two = summary["displacement_m3_per_rev"]
+    assert two < 0.9 * one
+    rows = {row["words"]: row for row in summary["specific"]}
+    torque = rows["shaft torque over displacement"]
+    assert torque["other"] / torque["one"] == pytest.approx(1.0, abs=0.1)
+    whole = rows["total loss, share of the shaft power"]
+    parts = sum(row["other"] for words, row in rows.items() if words.endswith("power") and row is not whole)
+    assert parts == pytest.approx(whole["other"], rel=2e-3)
+    page = (tmp_path / "cmp" / "report.html").read_text().replace("\u00a0", " ")
+    assert "Differences free of size" in page
+    assert "points of the shaft power" in page
+
+
 def test_a_cycle_may_have_semicolons_and_decimal_commas(run, tmp_path):
     rows = "time [s];speed [rpm];pressure [bar];displacement ratio [1]\n0;1500;200;0,5\n1,5;1500;200,5;1\n"
     (tmp_path / "cycle.csv").write_text(rows)
@@ -326,6 +480,17 @@ def test_a_cycle_may_have_semicolons_and_decimal_commas(run, tmp_path):
     assert found.time.tolist() == [0.0, 1.5]
     assert found.inputs[MapInput.RATIO].tolist() == [0.5, 1.0]
     assert found.inputs[MapInput.PRESSURE] == pytest.approx([20e6, 20.05e6])
+
+
+def test_all_faults_of_a_cycle_come_at_once_with_their_lines(run, tmp_path, capsys):
+    """Cells that are no numbers, a time that falls, and inputs beyond the map."""
+    rows = "0,1500,200,1\n2,x,200,1\n1,-1500,200,1\n3,1500,0,1\n4,0,200,1,9\n5,0,200,1\n"
+    (tmp_path / "cycle.csv").write_text("time [s],speed [rpm],pressure [bar],displacement ratio [1]\n" + rows)
+    assert main(["duty", str(run), str(tmp_path / "cycle.csv"), "-o", str(tmp_path / "d")]) == 2
+    error = capsys.readouterr().err
+    for told in ("5 faults", "line 6", "speed, line 3", "time, line 4", "1 s after 2 s in line 3",
+                 "speed, lines 4, 7", "pressure, line 5", "the map's box"):  # fmt: skip
+        assert told in error
 
 
 @pytest.mark.parametrize(
@@ -336,15 +501,17 @@ def test_a_cycle_may_have_semicolons_and_decimal_commas(run, tmp_path):
         ("time [s], speed [bar], pressure [bar], displacement ratio [1]\n0,1,1,1\n1,1,1,1\n", "rotational speed"),
         ("time [s], speed [rpm], pressure [bar], displacement ratio [1]\n0,x,1,1\n1,1,1,1\n", "speed, line 2"),
         ("time [s], speed [rpm], pressure [bar], displacement ratio [1]\n1,1,1,1\n0,1,1,1\n", "order of their time"),
+        ("time [s], speed [rpm], pressure [bar], displacement ratio [1]\n1,1,1,1\n\n0,1,1,1\n", "time, line 4"),
+        ("time [s], speed [rpm], pressure [bar], displacement ratio [1]\n1,1,1,1\n1,1,1,1\n", "1 s in all 2 rows"),
         (
             "time [s], speed [rpm], pressure [bar], displacement ratio [1]\n0,1500,200,1\n1,1500,500,1\n",
             "50 MPa at 1 s",
         ),
         (
             "time [s], speed [rpm], pressure [bar], displacement ratio [1]\n0,-5,200,1\n1,1500,500,1\n",
-            "cycle: 2 faults",
+            "cycle.csv: 2 faults",
         ),
-        ("time [s], speed [rpm], pressure [bar], displacement ratio [1]\n0,nan,1,1\n1,1,inf,1\n", "2 faults"),
+        ("time [s], speed [rpm], pressure [bar], displacement ratio [1]\n0,nan,200,1\n1,1500,inf,1\n", "2 faults"),
         ("time [s];speed [rpm];pressure [bar];displacement ratio [1]\n0;1;1;0,5\n1;1.5;1;1\n", "try:      0.5"),
         ("time [s], speed [rpm], pressure [bar], displacement ratio [1]\n0,1,1,0,5\n1,1,1,0,5\n", "5 cells"),
         ("time [s], speed [rpm], speed [rpm], displacement ratio [1]\n0,1,1,1\n1,1,1,1\n", "twice"),

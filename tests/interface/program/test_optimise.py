@@ -194,6 +194,12 @@ def test_gradient_of_one_smooth_objective(tmp_path):
     assert limit["holds"]
     loss = found.summary["measures"]["loss"]
     assert loss["chosen"] < 0.99 * loss["start"]
+    assert not any(one.startswith("search_not_settled") for one in found.warnings)
+    short = sf.optimise(case | {"points": {"pressures": "25MPa"}, "optimise": case["optimise"] | {"generations": 1}},
+                        workers=1)  # fmt: skip
+    (warning,) = (one for one in short.warnings if one.startswith("search_not_settled"))
+    assert "used up its 1 generations" in warning
+    assert "raise [optimise] generations to 2" in warning
 
 
 def test_films_under_constraints(tmp_path, monkeypatch):
@@ -324,7 +330,13 @@ FAULTS = [
         "a least value below",
         "",
     ),
-    (("<= 50 MPa", "<= 50"), "constraints.chamber_pressure_peak", "a value with its unit", "50 MPa"),
+    (("<= 50 MPa", "<= 50"), "constraints.chamber_pressure_peak", "a value with its unit", "<= 50 MPa"),
+    (
+        ('loss = "<= 1.05 start"', '"efficiency.overall" = ">= 86"'),
+        "constraints.efficiency.overall",
+        "a share of at most 100 %",
+        ">= 86 %",
+    ),
     (
         ("<= 50 MPa", "<= 0.5 start"),
         "constraints.chamber_pressure_peak",

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from swashfilm.output.scenes.picture3d import Frame, Pictures, Solid, draw, painter, thickness_field
+from swashfilm.output.scenes.picture3d import Frame, Pictures, Solid, draw, painter, picture_field
 
 
 @pytest.fixture
@@ -38,7 +38,7 @@ def test_a_picture_is_drawn_or_missed_for_a_reason_with_its_remedy(film, tmp_pat
         tmp_path / "one.png": [Frame([film])], tmp_path / "two.png": [Frame([film, film])],
         tmp_path / "turn.webp": turn,
     }  # fmt: skip
-    pictures = draw(wanted, thickness_field())
+    pictures = draw(wanted, picture_field("film thickness", "m"))
     if not pictures.paths:
         assert "libegl1" in pictures.reason
     else:

@@ -7,7 +7,15 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from system import Dimension
-from system.inputs.units import QuantityError, format_quantity, largest, parse_quantity, unit_scale
+from system.inputs.units import (
+    QuantityError,
+    format_quantity,
+    in_unit,
+    largest,
+    parse_quantity,
+    parse_share,
+    unit_scale,
+)
 
 SIZES = st.one_of(st.just(0.0), st.floats(1e-29, 1e29), st.floats(-1e29, -1e-29))
 
@@ -47,7 +55,7 @@ def test_units_are_exact(text, dimension, value):
     [
         ("90 cm3", Dimension.DISPLACEMENT),
         ("6 cm3/rev", Dimension.VOLUME),
-        ("35 Hz", Dimension.ANGULAR_SPEED),
+        ("35 1/s", Dimension.ANGULAR_SPEED),
         ("50 C", Dimension.TEMPERATURE),
         ("nan mm", Dimension.LENGTH),
         ("1e999 mm", Dimension.LENGTH),
@@ -69,6 +77,11 @@ def test_what_is_no_such_quantity(text, dimension):
 @pytest.mark.parametrize("dimension", Dimension)
 def test_examples_measure_what_they_show(dimension):
     assert parse_quantity(dimension.example, dimension) > 0.0
+
+
+@pytest.mark.parametrize(("text", "shown"), [("0 degC", "0 degC"), ("-40 degC", "-40 degC"), ("273 K", "-0.15 degC")])
+def test_temperatures_about_zero_are_shown_without_what_rounding_leaves(text, shown):
+    assert format_quantity(parse_quantity(text, Dimension.TEMPERATURE), Dimension.TEMPERATURE, digits=4) == shown
 
 
 @settings(deadline=None)
@@ -96,12 +109,57 @@ def test_rounded_quantities_are_near(dimension, value, digits):
     assert abs(parse_quantity(shown, dimension) - value) <= 0.51 * 10.0 ** (1 - digits) * abs(value - offset) + 1e-300
 
 
+@pytest.mark.parametrize("unit", ["1/min", "min-1", "min^-1", "U/min", "upm", "UpM"])
+def test_turns_are_counted_as_catalogues_write_them(unit):
+    speed = parse_quantity("2100 rpm", Dimension.ANGULAR_SPEED)
+    assert parse_quantity(f"2100 {unit}", Dimension.ANGULAR_SPEED) == speed
+    assert parse_quantity("35 Hz", Dimension.ANGULAR_SPEED) == speed
+    factor, offset = unit_scale(unit, Dimension.ANGULAR_SPEED)
+    assert (2100.0 * factor, offset) == (pytest.approx(speed, rel=1e-15), 0.0)
+    assert in_unit(speed, unit, Dimension.ANGULAR_SPEED) == pytest.approx(2100.0, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("text", "gauge"),
+    [
+        ("1 bara", "'-0.01325 bar', which is 1.01325 bar less"),
+        ("1 bar abs", "'-0.01325 bar', which is 1.01325 bar less"),
+        ("14.7 psi(a)", "'0.00405122 psi', which is 1.01325 bar less"),
+        ("0.3 MPa absolute", "'0.198675 MPa', which is 1.01325 bar less"),
+    ],
+)
+def test_an_absolute_pressure_gets_its_gauge_pressure_as_remedy(text, gauge):
+    with pytest.raises(QuantityError, match="an absolute pressure") as caught:
+        parse_quantity(text, Dimension.PRESSURE)
+    assert caught.value.nearest == gauge
+
+
+@pytest.mark.parametrize(
+    ("text", "example", "meant"),
+    [
+        ("0.014", "14 um", "'0.014 mm'"),
+        ("14", "14 um", "'14 um'"),
+        ("28", "350 bar", "'28 MPa'"),
+        ("280", "350 bar", "'280 bar'"),
+        ("0", "14 um", "'0 um'"),
+    ],
+)
+def test_a_bare_number_gets_the_unit_in_which_it_is_nearest_to_the_usual_value(text, example, meant):
+    dimension = Dimension.PRESSURE if "bar" in example else Dimension.LENGTH
+    with pytest.raises(QuantityError) as caught:
+        parse_quantity(text, dimension, example=example)
+    assert caught.value.nearest == meant
+
+
+@pytest.mark.parametrize(("text", "value"), [("0.5", 0.5), ("50%", 0.5), ("7 %", 0.07), ("1", 1.0)])
+def test_a_share_may_be_in_percent(text, value):
+    assert parse_share(text) == value
+
+
 @pytest.mark.parametrize(
     ("text", "dimension", "meant"),
     [
         ("50 C", Dimension.TEMPERATURE, "'50 degC'"),
-        ("2100 U/min", Dimension.ANGULAR_SPEED, "'2100 rpm'"),
-        ("2100 1/min", Dimension.ANGULAR_SPEED, "'2100 rpm'"),
         ("180 LPM", Dimension.VOLUME_FLOW, "'180 L/min'"),
         ("350 Bar", Dimension.PRESSURE, "'350 bar'"),
         ("2100 RPM", Dimension.ANGULAR_SPEED, "'2100 rpm'"),

@@ -12,6 +12,7 @@ import swashfilm as sf
 from swashfilm.__main__ import main
 from swashfilm.runs.variation import case
 from swashfilm.runs.variation.limits import limit_of
+from swashfilm.runs.variation.sensitivity.rows import cost_rows
 from swashfilm.runs.variation.tolerance.summary import table_warnings, warnings_of
 from system import load_pump, operating_point
 from system.maps.point import LumpedSolver, TableSolver
@@ -67,7 +68,16 @@ def test_files_of_a_sensitivity(costs):
     assert rows["slipper.film_thickness"]["change_text"] == "1 um"
     assert rows["ports.groove_start"]["change"] == pytest.approx(np.radians(1.0))
     assert rows["slipper.film_thickness"]["sigma"] == pytest.approx(0.8e-6)
-    assert [one["key"] for one in summary["refused"]] == ["bearings.front_share"]
+    (refused,) = summary["refused"]
+    assert refused["key"] == "bearings.front_share"
+    below, above = refused["reason"].removeprefix("the geometry refuses both sides: ").split("; ")
+    assert below.startswith("at 0.6138 bearings.rear_share: 0.38: front_share + rear_share = 0.9938")
+    assert above.startswith("at 0.6262 bearings.rear_share: 0.38: front_share + rear_share = 1.0062")
+    assert rows["slipper.film_thickness"]["percent"] == pytest.approx(1e-7)
+    assert rows["ports.groove_start"]["percent"] is None
+    (shown,) = (row for row in cost_rows(summary) if row[0] == "ports.groove_start")
+    assert shown[1:3] == ("0 deg", "+1 deg")
+    assert shown[5:] == ("", "", "", "")
     page = (costs / "report.html").read_text()
     assert "dearest by +1 um" in page
     assert "Dimensions without a derivative" in page
@@ -168,6 +178,7 @@ def test_both_as_functions(tmp_path):
         (["tolerance", "--limit", "case drain <= 1.5 bar"], ["not a volume flow"]),
         (["tolerance", "--limit", "efficiency >= much"], ["a share"]),
         (["tolerance", "--limit", "88 %"], ["a quantity, >= or <="]),
+        (["tolerance", "--limit", "efficiency >= 86"], ["'86', 8600 %", "try:      efficiency >= 86 %"]),
         (["tolerance", "--limit", "least film, slipper >= 1 um"], ["fidelity does not know", "--fidelity floating"]),
     ],
 )
@@ -351,6 +362,46 @@ def test_a_table_of_dimensions_serves_the_pump_with_others_in_its_box(wide_table
         sf.run("ref90", set={"piston.radial_clearance": "25 um"}, **asked)
     with pytest.raises(sf.InputFaults, match="a table of this very pump"):
         sf.run("ref90", set={"slipper.orifice_diameter": "1 mm"}, **asked)
+
+
+NORMAL_FILM = """
+[[tolerance.dimension]]
+key = "slipper.film_thickness"
+shape = "normal"
+sigma = "{sigma} %"
+"""
+
+
+@pytest.mark.parametrize(
+    ("sigma", "words", "told"),
+    [
+        (100, [], ["pumps drawn are refused by the geometry", "by slipper.film_thickness, such as -", "10 % at most",
+                   "try:      a narrower tolerance of slipper.film_thickness"]),
+        (45, ["--pumps", "315"], ["--pumps", "at least for 13 dimensions", "try:      3"]),
+    ],
+)  # fmt: skip
+def test_a_series_of_which_the_geometry_refuses_many_ends_early(sigma, words, told, tmp_path, capsys):
+    """Before a pump is solved: what is left of it is no sample of the series, or too few for the shares."""
+    wide = tmp_path / "wide.toml"
+    wide.write_text((BUILT_IN / "ref90.toml").read_text("utf-8") + NORMAL_FILM.format(sigma=sigma))
+    assert main(["tolerance", str(wide), *words, "-o", str(tmp_path / "run")]) == 2
+    error = capsys.readouterr().err
+    for word in told:
+        assert word in error
+    assert not list(tmp_path.glob("run*"))
+
+
+def test_refused_pumps_are_one_warning():
+    """With how many, the commonest keys, an example of each and its limit."""
+    refused = {"slipper.film_thickness: -1 um, expected at least 0.01 um": 30, "a.b: 2, expected at most 1": 9,
+               "c.d: 3, expected at most 2": 2, "e.f: 4, expected at most 3": 1}  # fmt: skip
+    found = SimpleNamespace(
+        pumps=500, refused=refused, failed={}, measures=(), scatters=(), surface=SimpleNamespace(held_out=())
+    )
+    (warning,) = warnings_of(found)
+    assert warning.startswith("pumps_refused: 42 of 500 pumps are refused by the geometry")
+    assert "30 by slipper.film_thickness, such as -1 um, expected at least 0.01 um, 9 by a.b" in warning
+    assert "1 by others; narrow the tolerances" in warning
 
 
 def test_shares_of_numbers_that_do_not_scatter_are_no_warning():

@@ -10,6 +10,7 @@ from swashfilm.case.gap.physics import effect_rows
 from swashfilm.case.gap.switches import SWITCHES
 from swashfilm.cli.app import build_parser
 from swashfilm.console.floating_options import floating_faults, floating_options
+from swashfilm.runs.pump.floating import HEAD, floating_rows
 from system import FloatingOptions, load_pump
 
 FLOATING = ["run", "ref90", "--fidelity", "floating"]
@@ -64,3 +65,14 @@ def test_physics_is_told_with_its_switches_and_what_it_took():
     assert rows["--rigid"][1:] == ("on", "--rigid", "40.0 s")
     assert rows["--smooth"][1:] == ("off", "--smooth", "3.0 s")
     assert rows["--isothermal"][1:] == ("off", "--isothermal", "")
+
+
+def test_rows_of_gaps_say_that_piston_and_slipper_are_one_of_several():
+    numbers = {
+        "film_thickness_mean_m": 15e-6, "film_thickness_min_m": 1e-6, "film_thickness_min_at_deg": 298.0,
+        "leakage_flow_m3_per_s": 1e-7, "friction_power_W": 37.6, "rubbing_power_W": 0.3, "contact_load_max_N": 5.0,
+        "turns": 1, "largest_multiplier": 0.21,
+    }  # fmt: skip
+    rows = floating_rows({"gaps": dict.fromkeys(("piston", "slipper", "valve_plate"), numbers), "unlike": {}})
+    assert [row[0] for row in rows] == ["one piston-cylinder", "one slipper-swash plate", "valve plate-cylinder"]
+    assert dict(zip(HEAD, rows[0], strict=True))["turns solved; disturbance left after a turn"] == "1; 21 %"

@@ -94,9 +94,10 @@ def test_a_description_cannot_be_changed():
         pump.piston.radial_clearance = 1.0
 
 
-def test_absolute_pressure_becomes_gauge(tmp_path):
+@pytest.mark.parametrize("text", ["26 bar", "26 bara", "26 bar abs", "2.6 MPa absolute"])
+def test_absolute_pressure_becomes_gauge(tmp_path, text):
     file = tmp_path / "pump.toml"
-    file.write_text(_with_line(REF90, "operating.inlet_pressure", 'inlet_pressure_abs = "26 bar"'))
+    file.write_text(_with_line(REF90, "operating.inlet_pressure", f'inlet_pressure_abs = "{text}"'))
     assert load_pump(file).operating.inlet_pressure == 26e5 - STANDARD_ATMOSPHERE
 
 
@@ -358,6 +359,8 @@ def test_a_check_waits_for_values_it_can_trust(faults_of):
         ({"operating.inlet_pressure": "-0.3 bar"}, "operating.inlet_pressure"),
         ({"operating.pressure": "400 bar"}, "operating.pressure"),
         ({"operating.speed": "2500 rpm"}, "operating.speed"),
+        ({"operating.temperature": "0 degC"}, "operating.temperature"),
+        ({"operating.temperature": "90 degC"}, "operating.temperature"),
         ({"oil.bulk_modulus": "1.6 MPa"}, "oil.bulk_modulus"),
         ({"operating.case_pressure": "400 bar"}, "ball_guide.spring_preload"),
         ({"piston.mass": "160 kg"}, "piston.mass"),
@@ -372,6 +375,20 @@ def test_doubtful_values_warn_and_load(override, path):
     assert isinstance(found[path], CheckWarning)
     assert found[path].limit
     assert found[path].remedy
+
+
+@pytest.mark.parametrize(
+    ("temperature", "words"),
+    [
+        ("-40 degC", ("at -40 degC the oil has", "400 mm2/s", "cold start", "1600 mm2/s", "no pump starts so")),
+        ("0 degC", ("at 0 degC the oil has", "400 mm2/s", "a higher temperature or a thinner oil")),
+        ("100 degC", ("has 6.8 mm2/s", "10 mm2/s, least", "a lower temperature or a thicker oil")),
+    ],
+)
+def test_oil_too_thick_or_too_thin_for_a_pump_is_told_with_its_limit(temperature, words):
+    report = check_pump(load_pump(BENCH, {"operating.temperature": temperature}))
+    (told,) = (str(one) for one in report.warnings if one.path == "operating.temperature")
+    assert all(word in told for word in words)
 
 
 @pytest.mark.parametrize(("over", "held"), [(-1.0, True), (1.0, False)])

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from swashfilm.__main__ import main
-from swashfilm.output.figures import svg_of
+from swashfilm.output.figures import compact
 from swashfilm.runs.pump.headline.answer import pump_answer
 from swashfilm.runs.pump.headline.powers import Power, PowerKind, gathered, largest_losses, power_parts
 from swashfilm.runs.pump.headline.ribbons import flow_diagram
@@ -72,7 +72,7 @@ def test_half_of_the_loss_is_named():
 @pytest.mark.usefixtures("rendered")
 def test_no_text_lies_over_another(shaft, parts):
     figure = flow_diagram(shaft, parts)
-    svg_of(figure)
+    compact(figure)
     texts = [text for text in figure.findobj(matplotlib.text.Text) if text.get_text() and text.get_visible()]
     boxes = [text.get_window_extent() for text in texts if text.axes and text in text.axes.texts]
     assert len(boxes) >= 3 * (1 + sum(part.watts > 0.0 for part in parts[1:]))

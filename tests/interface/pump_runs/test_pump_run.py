@@ -163,6 +163,21 @@ def test_a_pump_that_delivers_nothing_has_no_efficiency(tmp_path, capsys):
     assert "overall efficiency          none" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize(
+    ("stated", "told"),
+    [
+        (["--speed", "499rpm"], True),
+        (["--speed", "500rpm"], False),
+        (["--speed", "20rpm", "--set", "physics.mixed_friction.piston=0.1",
+          "--set", "physics.mixed_friction.hersey_scale=2e-8"], False),
+    ],
+)  # fmt: skip
+def test_constant_coefficients_far_below_their_speeds_are_told(stated, told, tmp_path):
+    folder = tmp_path / "run"
+    assert main(["run", "ref90", "--fidelity", "lumped", *stated, "-o", str(folder)]) == 0
+    assert any(one.startswith("friction_at_low_speed: ") for one in summary(folder)["warnings"]) is told
+
+
 def test_resolved_pump_runs_to_the_same_numbers(lumped, tmp_path):
     again = tmp_path / "again"
     assert main(["run", str(lumped / "resolved.toml"), "--fidelity", "lumped", "-o", str(again)]) == 0

@@ -35,7 +35,7 @@ def films(piston, other, physics=PLAIN):
 @pytest.mark.parametrize(
     ("share", "words"),
     [
-        (0.5, ("2 times the load", "push the part away")),
+        (0.4, ("2.5 times the load", "push the part away")),
         (0.8, ("125.0% of the load", "push the part away")),
         (2.0, ("50.0% of the load", "a thinner film bears the rest")),
     ],

@@ -13,7 +13,7 @@ import pytest
 
 from swashfilm.cli.app import run_command
 from swashfilm.runs.transient.case import TransientSection, load_transient
-from swashfilm.runs.transient.stops import contact_summary, contact_words, stop_contacts
+from swashfilm.runs.transient.stops import contact_rows, contact_summary, contact_words, stop_contacts
 from system import InputFaults
 from system.inputs.sections.fields import fields_of
 from system.multibody.transient import kernels as kernel
@@ -65,6 +65,17 @@ def test_folder_holds_what_the_docs_say(folder):
     assert "swash_plate.damping" in page
 
 
+@pytest.mark.parametrize(("area", "told"), [("70 cm2", True), ("18 cm2", False)])
+def test_an_actuator_wider_than_the_circle_of_the_pistons_is_told(area, told, tmp_path):
+    short = SHORT.replace("18 cm2", area).replace("20 ms", "1 ms").replace('"0.6 MPa"', '"1 bar"')
+    (tmp_path / "wide.toml").write_text(short, "utf-8")
+    assert run_command(["transient", str(tmp_path / "wide.toml"), "-o", str(tmp_path / "out")]) == 0
+    warnings = json.loads((tmp_path / "out" / "summary.json").read_text("utf-8"))["warnings"]
+    found = [one for one in warnings if one.startswith("actuator_oversized: ")]
+    assert bool(found) is told
+    assert all("94.4 mm (limit 90 mm, the pistons' pitch circle)" in one for one in found)
+
+
 def test_a_contact_tells_when_it_is_and_how_often_the_plate_lifts():
     """Ten instants a turn of 1 s: the upper stop for a turn with a lift; after two turns the lower one to the end."""
     time = np.arange(61) * 0.1
@@ -92,6 +103,21 @@ def test_a_contact_tells_when_it_is_and_how_often_the_plate_lifts():
         "It meets the lower stop at 3100 ms and bounces on it from then on, in touch 52 % of that time, and lifts 5 "
         "times a turn by up to 0.00057 deg."
     )
+
+
+def test_a_contact_of_an_instant_is_told_as_one():
+    """One time and the impact; a longer contact without a lift has no share of its time."""
+    one = {"stop": "upper", "share": 1.0, "lifts": 0, "turns": 0.0, "lift_max_rad": 0.0, "impact_max_Nms": 0.7}
+    struck, lying, bouncing = contact_rows(
+        [
+            one | {"from_s": 1e-3, "to_s": 1.2e-3},
+            one | {"from_s": 1e-3, "to_s": 9e-3},
+            one | {"from_s": 1e-3, "to_s": 9e-3, "share": 0.5, "lifts": 1, "lift_max_rad": 1e-3},
+        ]
+    )
+    assert struck == ("contact with the upper stop", "at 1 ms; impact up to 0.7 N m s")
+    assert lying[1] == "1 ms to 9 ms; impact up to 0.7 N m s"
+    assert bouncing[1].startswith("1 ms to 9 ms, in touch 50 % of this time, but lifts once by up to 0.057 deg;")
 
 
 def test_report_is_made_anew_and_check_prints_the_case(folder, capsys):

@@ -129,10 +129,11 @@ def _pressures(case: GapOverTurn, found: GapRevolution[Any]) -> Iterator[tuple[s
 def _motion(case: GapOverTurn, found: GapRevolution[Any], balance: float) -> Iterator[tuple[str, str]]:
     """Yield warnings of unstable motion, of too long steps, and of oil lost between reported angles."""
     if (grows := found.closing.largest_multiplier) > 1.0:
-        round_in = 2.0 * np.pi / np.abs(np.angle(max(found.closing.multipliers, key=abs)))
+        turned = abs(float(np.angle(max(found.closing.multipliers, key=abs)))) / (2.0 * np.pi)  # in a turn
         other = "another, stable one may exist"
-        if round_in < LONGEST_WHIRL:
-            other = f"the part whirls about it, once round in {round_in:.2g} turns; more load or less spin steadies it"
+        if turned * LONGEST_WHIRL > 1.0:
+            turns = f"{1.0 / turned:.2g} turns"
+            other = f"the part whirls about it, once round in {turns}; more load or less spin steadies it"
         yield (
             "motion_unstable",
             f"a small disturbance grows {grows:.3g} times per turn (limit 1): the motion is unstable; {other}",

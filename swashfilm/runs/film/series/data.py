@@ -77,7 +77,7 @@ def study_summary(study: Study[Any], outcomes: Sequence[StudyOutcome], kind: str
             for o in outcomes
             if o.status is not PartStatus.SOLVED
         ],
-        "mass_balance_error_max": max((o.summary["mass_balance_error"] for o in solved), default=0.0),
+        "mass_balance_error_max": max((o.summary["mass_balance_error"] for o in solved), default=None),
         "solve_seconds": sum(o.summary["solve_seconds"] for o in solved),
         "assumptions": list(dict.fromkeys(one for o in solved for one in o.summary.get("assumptions", []))),
         "warnings": _warnings(solved),

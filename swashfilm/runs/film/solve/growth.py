@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from typing import TYPE_CHECKING
 
@@ -51,6 +51,14 @@ class Growth:
     squeeze: Array = field(default_factory=lambda: ZERO)
 
 
+@dataclass(frozen=True)
+class Growths:
+    """Growth of the film with each parameter of its shape; why a parameter has none, by its key."""
+
+    found: Sequence[Growth]
+    left_out: Mapping[str, str]
+
+
 def uniform_growth(problem: FilmProblem) -> Growth:
     """A uniform growth of the film."""
     return Growth("film_thickness_m", None, np.ones((1, 1)), np.ones(len(problem.space.vertices)))
@@ -65,12 +73,12 @@ def tilts(problem: FilmProblem) -> list[Growth]:
     ]
 
 
-def case_growth(case: FilmCase) -> list[Growth]:
+def case_growth(case: FilmCase) -> Growths:
     """Uniform film, both tilts, and each constant of [constants] that the thickness depends on."""
-    found = [uniform_growth(case.problem), *tilts(case.problem)]
+    found, left_out = [uniform_growth(case.problem), *tilts(case.problem)], dict[str, str]()
     thickness, space = case.stated.film.thickness, case.problem.space
     if not isinstance(thickness, Formula):
-        return found
+        return Growths(found, left_out)
     formula = thickness.expression
     for name, value in formula.constants.items():
 
@@ -79,9 +87,11 @@ def case_growth(case: FilmCase) -> list[Growth]:
             return Formula(changed).sample(space), changed(*space.vertices.T)
 
         points, vertices = _differences(shape, value)
-        if np.any(points != 0.0) and np.isfinite(points).all():
+        if not np.isfinite(points).all():
+            left_out[f"{CONSTANT}{name}"] = "the thickness beside its value is no number"
+        elif np.any(points != 0.0):
             found.append(Growth(f"{CONSTANT}{name}", value, points, vertices))
-    return found
+    return Growths(found, left_out)
 
 
 def _differences(shape: Callable[[float], tuple[Array, ...]], value: float) -> list[Array]:
@@ -90,7 +100,7 @@ def _differences(shape: Callable[[float], tuple[Array, ...]], value: float) -> l
     return [(more - less) / (2.0 * step) for more, less in zip(shape(value + step), shape(value - step), strict=True)]
 
 
-def gap_growth(case: GapCase, stage: FloatingStage) -> list[Growth]:
+def gap_growth(case: GapCase, stage: FloatingStage) -> Growths:
     """Uniform film (clearance), each coordinate of the position, and each number of the shapes of the faces."""
     problem, modes = stage.balanced.problem, stage.instant.modes
     widening = _widening(stage)
@@ -101,7 +111,8 @@ def gap_growth(case: GapCase, stage: FloatingStage) -> list[Growth]:
         for number, (key, value) in enumerate(zip(POSITIONS[case.gap], stage.q, strict=True))
     ]
     faces = [uniform, *found] if case.gap is Gap.PISTON else found
-    return [*faces, *_of_shapes(case, stage, widening)]
+    of_shapes = _of_shapes(case, stage, widening)
+    return replace(of_shapes, found=[*faces, *of_shapes.found])
 
 
 def _widening(stage: FloatingStage) -> Array:
@@ -110,8 +121,8 @@ def _widening(stage: FloatingStage) -> Array:
     return np.ones((1, 1)) if shape.walls is not None else np.asarray(film_between(shape, stage.gap).slope)
 
 
-def _of_shapes(case: GapCase, stage: FloatingStage, widening: Array) -> Iterator[Growth]:
-    space = stage.instant.shape.space
+def _of_shapes(case: GapCase, stage: FloatingStage, widening: Array) -> Growths:
+    space, found, left_out = stage.instant.shape.space, list[Growth](), dict[str, str]()
 
     def shape(parts: FloatingParts) -> tuple[Array, Array, Array]:
         gap = case_gap(replace(case, parts=parts))
@@ -122,10 +133,12 @@ def _of_shapes(case: GapCase, stage: FloatingStage, widening: Array) -> Iterator
     for key, value, with_value in _numbers(case):
         try:
             points, vertices, squeeze = _differences(lambda to, made=with_value: shape(made(to)), value)  # type: ignore[misc]
-        except InputError:  # at the end of the shape's range
+        except InputError as reason:
+            left_out[key] = f"its value is at an end of its range: {reason}"
             continue
         if np.any(points != 0.0):
-            yield Growth(key, value, widening * points, vertices, squeeze)
+            found.append(Growth(key, value, widening * points, vertices, squeeze))
+    return Growths(found, left_out)
 
 
 def _numbers(case: GapCase) -> Iterator[tuple[str, float, Callable[[float], FloatingParts]]]:

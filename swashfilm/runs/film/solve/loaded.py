@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from reynolds.errors import FilmNotConverged
 from reynolds.problem import FilmProblem, FilmSolution
 from reynolds.solve.load_search import LoadedFilm, carry_load
+from reynolds.solve.warm_start import from_last_or_anew
 from swashfilm.runs.film.solve.oil import Found, OilSolver, film_of, oil_solver
 
 if TYPE_CHECKING:
@@ -22,10 +23,7 @@ class _Warmed:
     last: Found | None = None
 
     def __call__(self, problem: FilmProblem) -> FilmSolution:
-        try:
-            self.last = self.solver.solve(problem, self.last)
-        except FilmNotConverged:  # a start without a previous film may be nearer
-            self.last = self.solver.solve(problem)
+        self.last = from_last_or_anew(partial(self.solver.solve, problem), self.last)
         return film_of(self.last)
 
 

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from reynolds.errors import FilmNotConverged, InputError
+from reynolds.errors import InputError
 from reynolds.fem.space import FilmSpace
 from reynolds.numerics.arrays import Array
 from reynolds.problem import FilmProblem, FilmSolution
 from reynolds.solve.solver import FilmSolver
 from reynolds.solve.transient import FilmInstant, march_with
+from reynolds.solve.warm_start import from_last_or_anew
 from reynolds.thermal.coupling import Coupled
 from reynolds.thermal.energy import FilmTemperature, Heat
 from reynolds.thermal.film import ThermalViscosity, march_thermal, solve_thermal
@@ -79,10 +81,7 @@ class OilSolver:
         return cast("Iterator[FilmInstant[Found]]", found)
 
     def _step(self, problem: FilmProblem, last: Found | None) -> Found:
-        try:
-            return self.solve(problem, last)
-        except FilmNotConverged:  # a cavity over the whole film converges better without the last film as start
-            return self.solve(problem)
+        return from_last_or_anew(partial(self.solve, problem), last)
 
 
 def oil_solver(stated: FilmStatement, space: FilmSpace) -> OilSolver:

@@ -13,8 +13,9 @@ from reynolds.problem import FilmProblem, FilmSolution
 from reynolds.solve.solver import FilmSolver
 from swashfilm.case.file import FilmCase
 from swashfilm.case.gap.instant import GapCase
+from swashfilm.case.tables.film import Geometry
 from swashfilm.runs.film.solve.gap import GapStudy, case_gap
-from swashfilm.runs.film.solve.growth import Growth, case_growth, gap_growth, tilts, uniform_growth
+from swashfilm.runs.film.solve.growth import Growth, Growths, case_growth, gap_growth, tilts, uniform_growth
 from system.description.gap import Gap
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 
@@ -23,11 +24,12 @@ OPTION = "--sensitivity"
 
 @dataclass(frozen=True)
 class Sensitivities:
-    """Gradients by the outputs' names, growth of the film with the parameters of its shape, the quantities held in the
-    derivatives, and unknowns at which the cavity may open or close with the slightest change."""
+    """Gradients by the outputs' names, growth of the film with the parameters of its shape and why others have none,
+    what is kept in the derivatives, and unknowns at which the cavity may open or close with the slightest change."""
 
     gradients: Mapping[str, FilmGradient]
     growth: Sequence[Growth]
+    left_out: Mapping[str, str]
     kept: str
     weak: int
 
@@ -60,7 +62,7 @@ def _unfit(case: FilmCase) -> list[Fault]:
 
 
 def _known(case: FilmCase | GapCase) -> list[str]:
-    known = list(output_names(_posed(case)))
+    known = list(_outputs(case, _posed(case)))
     if isinstance(case, GapCase):
         # Between rigid walls the gap alone determines contact, which is no part of their film.
         return known if case.physics.elastic_walls else [name for name in known if name != "contact_load"]
@@ -70,6 +72,11 @@ def _known(case: FilmCase | GapCase) -> list[str]:
         kept = {"load": True, "moment_x": load.moment_x is not None, "moment_y": load.moment_y is not None}
         known = [name for name in known if not kept.get(name, False)]
     return known
+
+
+def _outputs(case: FilmCase | GapCase, problem: FilmProblem) -> dict[str, Output]:
+    around = isinstance(case, FilmCase) and case.stated.film.geometry is Geometry.CYLINDER
+    return output_names(problem, around_cylinder=around)
 
 
 def _posed(case: FilmCase | GapCase) -> FilmProblem:
@@ -98,18 +105,25 @@ def sensitivities(
         gap = case_gap(case)
         stage = gap.held_at(case.shaft_angle, gap_study.film.position)
         weight = gap.film.is_film(stage.balanced.problem.space) if case.gap is Gap.VALVE_PLATE else None
-        return _found(stage.balanced, gap.solver, names, gap_growth(case, stage), weight)
-    found = _found(solution, FilmSolver(case.problem.space), names, case_growth(case), None)
+        wanted = _wanted(case, stage.balanced, names)
+        return _found(stage.balanced, gap.solver, wanted, gap_growth(case, stage), weight)
+    wanted = _wanted(case, solution, names)
+    found = _found(solution, FilmSolver(case.problem.space), wanted, case_growth(case), None)
     return _at_held_load(case, solution, found) if case.stated.film.load else found
 
 
+def _wanted(case: FilmCase | GapCase, solution: FilmSolution, names: Sequence[str]) -> dict[str, Output]:
+    known = _outputs(case, solution.problem)
+    return {name: known[name] for name in names}
+
+
 def _found(
-    solution: FilmSolution, solver: FilmSolver, names: Sequence[str], growth: Sequence[Growth], weight: Array | None
+    solution: FilmSolution, solver: FilmSolver, wanted: Mapping[str, Output], growth: Growths, weight: Array | None
 ) -> Sensitivities:
-    known = output_names(solution.problem)
-    gradients = film_gradients(solver, solution, [known[name] for name in names], weight)
+    gradients = film_gradients(solver, solution, list(wanted.values()), weight)
     weak = int(weakly_active(solution).sum())
-    return Sensitivities(dict(zip(names, gradients, strict=True)), growth, "position", weak)
+    by_name = dict(zip(wanted, gradients, strict=True))
+    return Sensitivities(by_name, growth.found, growth.left_out, "position", weak)
 
 
 def _at_held_load(case: FilmCase, solution: FilmSolution, found: Sensitivities) -> Sensitivities:

@@ -9,10 +9,12 @@ import numpy as np
 
 from reynolds.errors import FilmNotConverged, InputError
 from reynolds.problem import FilmProblem, FilmSolution
+from reynolds.solve.bearing import BearingLoad, bearing_load
 from reynolds.solve.loads import Loads, loads
 from reynolds.solve.transient import oil_held
 from reynolds.thermal.energy import FilmTemperature
 from swashfilm.case.problem import film_problem
+from swashfilm.case.tables.film import Geometry
 from swashfilm.runs.film.solve.oil import film_of, heat_of, oil_solver
 from system.work.progress import Report
 
@@ -22,13 +24,22 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Moment:
-    """The film at a time (s): its integrals; for a written film its solution and temperature."""
+    """The film at a time (s): its integrals; for a written film its solution and temperature.
+
+    bearing: the load as a vector, of a film around a cylinder.
+    """
 
     time: float
     solution: FilmSolution | None
     heat: FilmTemperature | None
     temperature_max: float | None
     loads: Loads
+    bearing: BearingLoad | None = None
+
+    @property
+    def supported(self) -> float:
+        """Load on film and contact, N: around a cylinder the size of the vector."""
+        return self.bearing.size if self.bearing else self.loads.load + self.loads.contact_load
 
 
 def transient(stated: FilmStatement, report: Report) -> list[Moment]:
@@ -57,8 +68,13 @@ def transient(stated: FilmStatement, report: Report) -> list[Moment]:
         for instant in oil_solver(stated, space).march(problem_at, stated.time.end, stated.time.step_taken, held):
             film, heat = film_of(instant.solution), heat_of(instant.solution)
             hottest = None if heat is None else float(heat.temperature.max())
-            kept = stated.time.is_output(instant.time, instant.step)
-            found.append(Moment(instant.time, film if kept else None, heat if kept else None, hottest, loads(film)))
+            is_kept = stated.time.is_output(instant.time, instant.step)
+            bearing = bearing_load(film) if stated.film.geometry is Geometry.CYLINDER else None
+            found.append(
+                Moment(
+                    instant.time, film if is_kept else None, heat if is_kept else None, hottest, loads(film), bearing
+                )
+            )
             report(stated.time.number(instant.time), stated.time.steps, f"t = {instant.time:.4g} s")
     except FilmNotConverged as reason:
         raise FilmNotConverged(f"at t = {now:.6g} s: {reason.what}", f"a smaller step; {reason.remedy}") from None

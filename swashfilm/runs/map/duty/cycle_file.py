@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
+from swashfilm.runs.map.duty.cycle_faults import box_faults, time_faults
 from system.inputs.csv_table import Line, head_columns, read_csv_text
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 from system.inputs.units import LARGEST, Dimension, QuantityError, largest, unit_scale, with_point
@@ -38,11 +38,12 @@ EXAMPLE = "time [s], speed [rpm], pressure [bar], displacement ratio [1]"
 _RATIO_UNITS = {"1": 1.0, "-": 1.0, "%": 0.01}
 
 
-def read_cycle(path: Path, axes: tuple[MapAxis, ...]) -> Cycle:
+def read_cycle(path: Path, axes: tuple[MapAxis, ...], *, within: bool = True) -> Cycle:
     """Return the cycle of a file for a map of these axes: columns in any order and unit, `#` begins a comment.
 
-    Columns are separated by commas, or by semicolons or tabs, where numbers may have a decimal comma. Inputs with one
-    level in the map may be left out. Raises InputFaults with every fault.
+    Columns are parted by commas, or by semicolons or tabs, where numbers may have a decimal comma. Inputs with one
+    level in the map may be left out. within: the cycle stays in the box of the axes. Raises InputFaults with every
+    fault.
     """
     try:
         text = read_csv_text(path, f"a CSV file with columns {EXAMPLE}")
@@ -60,13 +61,15 @@ def read_cycle(path: Path, axes: tuple[MapAxis, ...]) -> Cycle:
         faults.append(Fault("head", found, f"columns {heads} too: a cycle has a time, and the inputs of its map"))
     if faults:
         raise InputFaults(str(path), faults)
-    values = dict(column_values(text.rows, len(text.head), columns, faults))
+    lines, values = column_values(text.rows, len(text.head), columns, faults)
+    time, inputs = values[TIME], {name: array for name, array in values.items() if name != TIME}
+    if len(lines) > 1:
+        faults += time_faults(lines, time)
+    boxes = {name: axis for name, given in HEADS.items() for axis in axes if within and axis.input is given}
+    faults += box_faults(lines, time, inputs, boxes)
     if faults:
         raise InputFaults(str(path), faults)
-    try:
-        return Cycle(values[TIME], {HEADS[name]: array for name, array in values.items() if name != TIME})
-    except InputError as reason:
-        raise InputFaults(str(path), [Fault(TIME, reason.found, reason.expected)]) from None
+    return Cycle(time, {HEADS[name]: array for name, array in inputs.items()})
 
 
 def _levels(axes: tuple[MapAxis, ...], given: MapInput) -> int:
@@ -119,24 +122,33 @@ def _scale(unit: str, dimension: Dimension | None) -> tuple[float, float]:
 
 def column_values(
     rows: Sequence[Line], width: int, columns: Mapping[str, tuple[int, float, float]], faults: list[Fault]
-) -> Iterator[tuple[str, Array]]:
-    """Yield each column in SI; list a fault for rows with another number of cells than the head."""
+) -> tuple[tuple[int, ...], dict[str, Array]]:
+    """Return the numbers of the rows' lines, and each column in SI; nan, with its fault, for a cell that is no number.
+
+    Rows with another number of cells than the head are left out, with their fault.
+    """
     uneven = [(number, len(cells)) for number, cells in rows if len(cells) != width]
     if uneven:
         found = f"{uneven[0][1]} cells, so in {len(uneven)} rows" if len(uneven) > 1 else f"{uneven[0][1]} cells"
         remedy = "decimals with a point: 1.5"
         faults.append(Fault(f"line {uneven[0][0]}", found, f"{width}, the number of columns in the head", remedy))
-        return
-    for name, (place, factor, offset) in columns.items():
-        most = LARGEST if (kind := DIMENSIONS.get(name)) is None else largest(kind)
-        numbers = []
-        for number, cells in rows:
-            text = cells[place].strip() if place < len(cells) else ""
-            try:
-                numbers.append(_within(factor * _finite(text) + offset, most))
-            except ValueError:
-                faults.append(Fault(f"{name}, line {number}", repr(text), "a number", with_point(text)))
-        yield name, np.array(numbers)
+    whole = [(number, cells) for number, cells in rows if len(cells) == width]
+    values = {name: _column(name, whole, own, faults) for name, own in columns.items()}
+    return tuple(number for number, _ in whole), values
+
+
+def _column(name: str, rows: Sequence[Line], own: tuple[int, float, float], faults: list[Fault]) -> Array:
+    place, factor, offset = own
+    most = LARGEST if (kind := DIMENSIONS.get(name)) is None else largest(kind)
+    numbers = []
+    for number, cells in rows:
+        text = cells[place].strip()
+        try:
+            numbers.append(_within(factor * _finite(text) + offset, most))
+        except ValueError:
+            numbers.append(math.nan)
+            faults.append(Fault(f"{name}, line {number}", repr(text), "a number", with_point(text)))
+    return np.array(numbers)
 
 
 def _within(number: float, most: Fraction) -> float:

@@ -12,12 +12,12 @@ from swashfilm.output.data.files import read_columns
 from swashfilm.output.page import keep_pictures, read_summary, write_page
 from swashfilm.output.touch.picture import Picture
 from swashfilm.runs.map.answer import overall_formula, points_text
-from swashfilm.runs.map.duty.plots import BALANCE, course_plot, sinks_of, sinks_plot
-from swashfilm.runs.map.plots import HEADLINE
+from swashfilm.runs.map.duty.plots import BALANCE, course_plot, share_text, sinks_of, sinks_plot
+from system.maps.definitions import BY_NAME, HEADLINE, agreeing, definition_words
 
 COURSE = "course.csv"
-ENERGY_HEAD = ("", "energy", "error", "mean power", "share of the loss")
-EFFICIENCY_HEAD = ("definition", "mean efficiency", "error [percentage points]", "formula")
+ENERGY_HEAD = ("", "energy", "interpolation error", "mean power", "share of the loss")
+EFFICIENCY_HEAD = ("definition", "mean efficiency", "interpolation error [percentage points]", "formula")
 SINKS, OVER_TIME = "losses", "course"
 """Names of the page's pictures."""
 
@@ -47,25 +47,58 @@ def duty_answer(summary: Mapping[str, Any], picture: Picture | None = None, capt
     """Return the answer of a cycle: energy in, out and lost, mean efficiency, and the largest loss."""
     shaft, hydraulic, loss = (summary["energy_J"][name] for name in BALANCE)
     efficiency, volume = summary["efficiency"][HEADLINE.value], summary["volume_m3"]
-    (first, most), *others = sinks_of(summary).items()
-    mean = f"{100.0 * efficiency['value']:.1f} %"
     tiles = (
-        Tile(energy_text(shaft["value"]), "energy in, at the shaft", f"+- {energy_text(shaft['error'], 2)}"),
-        Tile(energy_text(hydraulic["value"]), "energy out, hydraulic", f"+- {energy_text(hydraulic['error'], 2)}"),
-        Tile(energy_text(loss["value"]), "energy lost", f"+- {energy_text(loss['error'], 2)}"),
-        Tile(mean, "mean efficiency (ISO 4409)", f"+- {points_text(efficiency['error'])}"),
-        Tile(f"{100.0 * most['value'] / loss['value']:.0f} %", "of the loss", first),
+        Tile(energy_text(shaft["value"]), "energy in, at the shaft", _off(energy_text(shaft["error"], 2))),
+        Tile(energy_text(hydraulic["value"]), "energy out, hydraulic", _off(energy_text(hydraulic["error"], 2))),
+        Tile(energy_text(loss["value"]), "energy lost", _off(energy_text(loss["error"], 2))),
+        _efficiency_tile(efficiency),
+        *_largest_tile(summary),
         Tile(f"{volume['value'] * 1e3:.4g} L", "delivered", f"in {summary['duration_s']:.6g} s"),
     )
-    next_words = f", then {others[0][0]} ({100.0 * others[0][1]['value'] / loss['value']:.0f} %)" if others else ""
     words = (
         f"In {summary['duration_s']:.6g} s the pump takes {energy_text(shaft['value'])} at its shaft and gives "
-        f"{energy_text(hydraulic['value'])} to the oil; {energy_text(loss['value'])} are lost. Its mean overall "
-        f"efficiency by ISO 4409 is {mean}, energy over energy. The largest loss is {first} "
-        f"({100.0 * most['value'] / loss['value']:.0f} %){next_words}. The errors are those of the map between its "
-        f"levels; the error of the pump's model itself comes on top."
+        f"{energy_text(hydraulic['value'])} to the oil; {energy_text(loss['value'])} are lost. "
+        f"{efficiency_words(efficiency)}{_loss_words(summary)} The errors are those of interpolation between "
+        f"the levels of the map; the error of the pump's model itself comes on top."
     )
     return Answer(tiles, words, picture, caption)
+
+
+def _off(error: str) -> str:
+    return f"interpolation error {error}"
+
+
+def _efficiency_tile(efficiency: Mapping[str, Any]) -> Tile:
+    if efficiency["value"] is None:
+        return Tile("none", "mean efficiency (ISO 4409)", "no energy in, or none out")
+    value = f"{100.0 * efficiency['value']:.1f} %"
+    return Tile(value, "mean efficiency (ISO 4409)", _off(points_text(efficiency["error"])))
+
+
+def efficiency_words(efficiency: Mapping[str, Any]) -> str:
+    """Return the mean efficiency in a sentence, or why the cycle has none."""
+    if efficiency["value"] is None:
+        return (
+            "It has no mean efficiency: the pump stands still or motors for so much of the cycle that the energies in "
+            "and out are not both above zero."
+        )
+    return f"Its mean overall efficiency by ISO 4409 is {100.0 * efficiency['value']:.1f} %, energy over energy."
+
+
+def _largest_tile(summary: Mapping[str, Any]) -> Iterator[Tile]:
+    """Yield the share of the largest loss, where anything is lost."""
+    loss = summary["energy_J"]["loss"]["value"]
+    for name, most in list(sinks_of(summary).items())[:1]:
+        if share := share_text(most["value"], loss):
+            yield Tile(share, "of the loss", name)
+
+
+def _loss_words(summary: Mapping[str, Any]) -> str:
+    """Return the largest losses in a sentence, none where nothing is lost."""
+    loss = summary["energy_J"]["loss"]["value"]
+    largest = list(sinks_of(summary).items())[:2]
+    shares = [f"{name} ({share})" for name, one in largest if (share := share_text(one["value"], loss))]
+    return f" The largest loss is {', then '.join(shares)}." if shares else ""
 
 
 def energy_text(joule: float, digits: int = 4) -> str:
@@ -79,7 +112,7 @@ def energy_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
     duration, loss = summary["duration_s"], summary["energy_J"]["loss"]["value"]
     energies = {name: summary["energy_J"][name] for name in BALANCE} | sinks_of(summary)
     for words, energy in energies.items():
-        share = "" if words in BALANCE else f"{100.0 * energy['value'] / loss:.2f} %"
+        share = "" if words in BALANCE else share_text(energy["value"], loss, 2)
         yield (
             words,
             energy_text(energy["value"], 5),
@@ -94,13 +127,15 @@ def energy_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
 def efficiency_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
     """Yield (definitions, mean efficiency, error, formulas); definitions that agree together."""
 
-    def shown(one: Mapping[str, Any]) -> tuple[str, str]:
+    def shown(one: Mapping[str, Any]) -> tuple[str, ...]:
+        if one["value"] is None:
+            return "none", ""
         return f"{100.0 * one['value']:.2f} %", f"{100.0 * one['error']:.2g}"
 
-    for (value, error), alike in groupby(sorted(summary["efficiency"].values(), key=shown), shown):
-        listed = list(alike)
-        formulas = dict.fromkeys(overall_formula(one["formula"]) for one in listed)
-        yield "; ".join(one["label"] for one in listed), value, error, "; ".join(formulas)
+    found = {BY_NAME[name]: one for name, one in summary["efficiency"].items()}
+    for alike, cells in agreeing({name: shown(one) for name, one in found.items()}):
+        formulas = dict.fromkeys(overall_formula(found[one]["formula"]) for one in alike)
+        yield definition_words(alike), *cells, "; ".join(formulas)
 
 
 def marked_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:

@@ -52,6 +52,11 @@ def sinks_of(summary: Mapping[str, Any]) -> dict[str, Mapping[str, float]]:
     return dict(sorted(sinks.items(), key=lambda item: -float(item[1]["value"])))
 
 
+def share_text(value: float, loss: float, digits: int = 0) -> str:
+    """Return the share of an energy lost in the whole loss, %; empty where nothing is lost."""
+    return f"{100.0 * value / loss:.{digits}f} %" if loss > 0.0 else ""
+
+
 def sinks_plot(summary: Mapping[str, Any]) -> Figure:
     """Draw the energy lost by kind as bars, each with its share of the loss and the error of interpolation."""
     sinks, loss = sinks_of(summary), summary["energy_J"]["loss"]["value"]
@@ -59,7 +64,7 @@ def sinks_plot(summary: Mapping[str, Any]) -> Figure:
     axes = figure.subplots()
     values = [energy["value"] * 1e-3 for energy in sinks.values()]
     bars = axes.barh([*sinks], values, xerr=[energy["error"] * 1e-3 for energy in sinks.values()], color=COLOURS[0])
-    axes.bar_label(bars, [f"{1e5 * value / loss:.1f} %" for value in values], padding=4, fontsize=9)
+    axes.bar_label(bars, [share_text(1e3 * value, loss, 1) for value in values], padding=4, fontsize=9)
     axes.invert_yaxis()
     axes.margins(x=0.12)
     axes.set_xlabel("energy lost [kJ]")

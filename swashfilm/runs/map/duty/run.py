@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -15,10 +16,12 @@ from swashfilm.output.run_folder import write_json
 from swashfilm.runs.map.duty.page import COURSE, write_duty_page
 from swashfilm.runs.map.duty.plots import RATIO
 from system.inputs.faults import Fault, InputFaults
-from system.maps.data import MapData
-from system.maps.duty import Cycle, Duty, duty
+from system.maps.data import MapData, warning_counts
+from system.maps.duty import Cycle, Duty, Energy, duty
 from system.maps.interpolation import MapError, MapInterpolant, left_out_error
 from system.maps.plan import MapInput
+from system.maps.rating import rating_warnings
+from system.pump.efficiency import EfficiencyDefinition
 
 FINE = 400
 """Number of instants in the written and drawn time series."""
@@ -34,7 +37,8 @@ def run_duty(data: MapData, error: MapError | None, cycle: Cycle, given: Path, f
     found = duty(interpolant, cycle, known_error(data, error))
     shutil.copy(given, folder / "cycle.csv")
     _write_course(folder / COURSE, interpolant, cycle)
-    summary = duty_summary(data, found)
+    told = [*cycle_warnings(data, cycle), *point_warnings(data, found)]
+    summary = duty_summary(data, found) | {"warnings": told}
     write_json(folder / "summary.json", summary)
     write_duty_page(folder)
     return summary
@@ -64,11 +68,34 @@ def duty_summary(data: MapData, found: Duty) -> dict[str, Any]:
         "volume_m3": asdict(found.volume),
         "energy_J": {words: asdict(energy) for words, energy in found.energies.items()},
         "efficiency": {
-            definition.value: asdict(energy) | {"label": definition.label, "formula": definition.formula}
-            for definition, energy in found.efficiency.items()
+            definition.value: _ratio(found.efficiency.get(definition))
+            | {"label": definition.label, "formula": definition.formula}
+            for definition in EfficiencyDefinition
         },
         "marked": dict(found.marked),
     }
+
+
+def cycle_warnings(data: MapData, cycle: Cycle, prefix: str = "") -> Iterator[str]:
+    """Yield the warnings of a cycle whose rows exceed the pump's rating, as those of a map."""
+    held = {axis.input: np.full(cycle.time.shape, axis.values[0]) for axis in data.axes}
+    yield from rating_warnings(data, held | dict(cycle.inputs), "rows of the cycle", prefix)
+
+
+def point_warnings(data: MapData, found: Duty) -> Iterator[str]:
+    """Yield each warning of the map's points that the cycle passes by, with their number and the time beside them."""
+    counts, solved = warning_counts(data), int(np.sum(data.solved))
+    for name, part in found.marked.items():
+        count, text = counts[name]
+        yield (
+            f"{name}: at {count} of {solved} points of the map, beside which the cycle spends {part:.1%} of its time; "
+            f"at the first: {text}"
+        )
+
+
+def _ratio(energy: Energy | None) -> dict[str, float | None]:
+    """Return a mean efficiency and its error, None of a cycle without one."""
+    return {"value": None, "error": None} if energy is None else asdict(energy)
 
 
 def held_inputs(data: MapData) -> str:
@@ -87,13 +114,14 @@ def _write_course(path: Path, interpolant: MapInterpolant, cycle: Cycle) -> None
     }
     numbers = interpolant.at(inputs)
     shaft, hydraulic = numbers["shaft_power"], numbers["hydraulic_power"]
+    ratio = np.divide(hydraulic, shaft, out=np.full_like(shaft, np.nan), where=shaft > 0.0)
     columns = {
         "time": (time, "s"),
         **{given.words: (values, given.unit) for given, values in inputs.items()},
         "shaft power": (shaft, "W"),
         "hydraulic power": (hydraulic, "W"),
         "loss": (shaft - hydraulic, "W"),
-        RATIO: (hydraulic / shaft, "1"),
+        RATIO: (ratio, "1"),
         "delivery flow": (numbers["delivery_flow"], "m3/s"),
     }
     write_columns(

@@ -17,13 +17,13 @@ from swashfilm.runs.film.series.points import StudyWork, run_points
 from swashfilm.runs.film.series.result import StudyRun
 from swashfilm.runs.pump.vary.points import PumpStudy, pump_digest, solved_point
 from system.inputs.shown import significant, titled
+from system.pump.bench import EFFICIENCIES
 from system.work.progress import Report
 
 if TYPE_CHECKING:
     import xarray
 
 SHOWN = ("delivery_flow_m3_per_s", "drain_flow_m3_per_s", "shaft_torque_Nm", "loss_W")
-EFFICIENCIES = ("overall", "volumetric", "hydromechanical")
 LEAST = "film_thickness_min_m."
 MOST_ROWS = 60
 

@@ -218,4 +218,8 @@ def _constraint(measure: Measure, raw: object) -> Constraint:
     text = f"{measure.name} {bound.value} {match[2]}"
     if start := _START.fullmatch(match[2]):
         return Constraint(measure, bound, 0.0, text, float(start[1] or 1.0))
-    return Constraint(measure, bound, measure_value(match[2], measure), text)
+    try:
+        return Constraint(measure, bound, measure_value(match[2], measure), text)
+    except QuantityError as reason:
+        near = f"{bound.value} {reason.nearest}" if reason.nearest else ""
+        raise QuantityError(reason.found, reason.expected, near) from None

@@ -54,8 +54,8 @@ def run_optimise_command(options: argparse.Namespace) -> int:
     show_assumed_in(options.case)
     _show_cost(case)
     with (
-        design_executor(options, case) as executor,
         run_folder(case.name, options.output, workbook=options.excel) as folder,
+        design_executor(options, case) as executor,
         progress(case.search.trials(case.problem), case.name) as report,
     ):
         run_optimise(case, folder, executor, report)

@@ -10,10 +10,10 @@ from swashfilm.output.answer import Answer, Tile
 from swashfilm.output.data.files import read_netcdf
 from swashfilm.output.page import inlined, read_summary, write_page
 from swashfilm.runs.compare import page as compared
-from swashfilm.runs.map.plots import HEADLINE
 from swashfilm.runs.variation.optimise import rows
 from swashfilm.runs.variation.optimise.files import BESIDE, DATA
 from swashfilm.runs.variation.optimise.plots import dimension_plot, growth_plot, pareto_plot
+from system.maps.definitions import HEADLINE
 from system.variation.measures import MEASURES
 
 CAPTION = "All designs that were tried, the Pareto set among them, the start and the chosen design"

@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 
 from swashfilm.formats.versions import headed
-from swashfilm.runs.variation.optimise.case import KNEE, OptimiseCase
+from swashfilm.runs.variation.optimise.case import KNEE, NUMBERS, OptimiseCase
 from swashfilm.runs.variation.words import where
 from system.maps.plan import point_words
 from system.pump.operating import OperatingPoint
 from system.variation.measures import measured
+from system.variation.optimisation.ending import Ending
 from system.variation.optimisation.method import Method
 from system.variation.optimisation.optimum import Optimisation
 from system.variation.optimisation.problem import MET, Constraint, Design, Problem, Varied
@@ -154,6 +155,8 @@ def _warnings(case: OptimiseCase, found: Optimisation, design: Design) -> Iterat
             f"pareto_still_grows: the last quarter of the generations has added {late:.1%} of the set's hypervolume "
             f"(limit {GROWS:.0%}); raise [optimise] generations to {more} with --resume of this folder"
         )
+    if counts["feasible"] and found.ending is not None and not found.ending.settled:
+        yield _not_settled(case, found.ending)
     if counts["refused"] > MANY_REFUSED * counts["tried"]:
         reason = next(one.reason for one in found.designs if one.status is PartStatus.FAULTY)
         yield (
@@ -167,6 +170,21 @@ def _warnings(case: OptimiseCase, found: Optimisation, design: Design) -> Iterat
         yield "start_outside_bounds: the bounds do not hold the pump as stated; it is compared with, but no candidate"
     for name in design.warnings:
         yield f"{name}: at the chosen design; swashfilm run chosen.toml at each operating point tells number and place"
+
+
+def _not_settled(case: OptimiseCase, ending: Ending) -> str:
+    if not ending.out_of_steps:
+        return (
+            f"search_not_settled: the search ended before its objective settled ({ending.why}): better designs are "
+            "likely; begin at the chosen design, or set [optimise] method = 'evolution'"
+        )
+    search = case.search
+    (key,) = NUMBERS[search.method]
+    limit: int = getattr(search, key)
+    return (
+        f"search_not_settled: the search used up its {limit} {key} before its objective settled: better designs are "
+        f"likely; raise [optimise] {key} to {2 * limit} with --resume of this folder"
+    )
 
 
 def _nothing_feasible(found: Optimisation) -> str:

@@ -28,8 +28,8 @@ def run_sensitivity_command(options: argparse.Namespace) -> int:
     show_cost(case, pumps)
     name = f"sensitivity-{case.pump.name}"
     with (
-        varied_executor(options, case.seconds(pumps)) as executor,
         run_folder(name, options.output, workbook=options.excel) as folder,
+        varied_executor(options, case.seconds(pumps)) as executor,
         progress(pumps, name) as report,
     ):
         run_sensitivity(case, folder, executor, report)

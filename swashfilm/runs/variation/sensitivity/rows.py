@@ -44,10 +44,10 @@ def kind_of(row: Row) -> str:
 def cost_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
     """Yield the rows of COST_HEAD, the costliest first."""
     for row in ranked(summary):
-        sigma = "" if row["sigma"] is None else _change(row, LOSS, "sigma")
         yield (
             row["key"], row["text"], f"+{row['change_text']}", _change(row, LOSS), _change(row, EFFICIENCY),
-            _change(row, LOSS, "percent"), _change(row, EFFICIENCY, "percent"), row["sigma_text"] or "", sigma,
+            _change(row, LOSS, "percent"), _change(row, EFFICIENCY, "percent"), row["sigma_text"] or "",
+            _change(row, LOSS, "sigma"),
         )  # fmt: skip
 
 
@@ -102,8 +102,13 @@ def first_rows(rows: Sequence[tuple[str, ...]]) -> list[tuple[str, ...]]:
 
 
 def _change(row: Row, measure: str, by: str = "change") -> str:
-    """Return a change as people read it, with its error where visible; the verdict without a number."""
+    """Return a change as people read it, with its error where that shows; the verdict where there is no number.
+
+    Empty where the dimension has no such change: no sigma is stated, or its value is 0 and has no 1 %.
+    """
     found = row["measures"][measure]
+    if row[by] is None:
+        return ""
     if found["verdict"] == Verdict.NOT_SMOOTH.value:
         return str(Verdict.NOT_SMOOTH.value)
     if found["verdict"] == Verdict.NO_EFFECT.value:

@@ -42,8 +42,8 @@ def run_tolerance_command(options: argparse.Namespace) -> int:
     show_cost(case.varied, case.pumps)
     name = f"tolerance-{case.varied.pump.name}"
     with (
-        varied_executor(options, case.varied.seconds(case.pumps)) as executor,
         run_folder(name, options.output, workbook=options.excel) as folder,
+        varied_executor(options, case.varied.seconds(case.pumps)) as executor,
         progress(case.pumps, name) as report,
     ):
         run_tolerance(case, folder, executor, report)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from fnmatch import fnmatchcase
+from math import ceil
 
 import numpy as np
 
@@ -14,9 +15,14 @@ from system.description.pump import PumpDescription
 from system.inputs.faults import Fault, nearest_choice
 from system.points.table.response_table import ResponseTable
 from system.pump_file.file import Variant
+from system.variation.admitted import MOST_REFUSED, TRIED, trial
 from system.variation.sampling import drawn_series, part_of
+from system.variation.scatter import FEWEST
 from system.variation.shares import pumps_needed
 from system.variation.solving import variable_keys
+
+REASONS = 3
+"""Reasons of refused pumps that are told."""
 
 
 def chosen_drawing_of(pump: PumpDescription, keys: str | None) -> Drawing:
@@ -29,7 +35,7 @@ def drawing_faults(
     pump: PumpDescription, table: ResponseTable | None, keys: str | None, pumps: int, seed: int
 ) -> list[Fault]:
     """Return the faults of a choice: no tolerance, a dimension that a response table holds, pumps beyond its box, too
-    few pumps."""
+    few pumps, too many that the geometry refuses."""
     drawing, stated = drawing_of(pump), pump_keys(pump)
     if not drawing.names:
         expected = "[[tolerance.dimension]] or a sigma, such as film_thickness = 0.08"
@@ -53,9 +59,40 @@ def drawing_faults(
     elif table is not None:
         faults += _beyond_box(table, drawn_series(chosen, pumps, seed).variants(pump), stated)
     if pumps < (needed := pumps_needed(len(chosen.names))):
-        expected = f"{needed} at least for {len(chosen.names)} dimensions: the shares follow from a quadratic surface"
-        faults.append(Fault("--pumps", str(pumps), expected))
+        faults.append(Fault("--pumps", str(pumps), _enough(needed, chosen), str(needed)))
+    elif chosen.names:
+        faults += _refused(pump, chosen, pumps, seed)
     return faults
+
+
+def _refused(pump: PumpDescription, chosen: Drawing, pumps: int, seed: int) -> Iterator[Fault]:
+    """Yield the fault of a series of which the geometry refuses so many pumps that the others are no sample of it, or
+    too few."""
+    found = trial(pump, list(drawn_series(chosen, min(pumps, TRIED), seed).variants(pump)))
+    if not found.refused:
+        return
+    told = f"{sum(found.refused.values())} of {found.tried} pumps drawn are refused by the geometry"
+    needed = ceil(max(FEWEST, pumps_needed(len(chosen.names))) / (1.0 - found.share)) if found.share < 1.0 else 0
+    if found.share > MOST_REFUSED:
+        expected = f"{100.0 * MOST_REFUSED:g} % at most: the others are no sample of the series"
+        first = next(iter(found.refused)).partition(":")[0]
+        yield Fault("tolerance", f"{told}, {by_reason(found.refused)}", expected, f"a narrower tolerance of {first}")
+    elif pumps < needed:
+        yield Fault("--pumps", f"{pumps}; {told}", _enough(needed, chosen), str(needed))
+
+
+def _enough(needed: int, chosen: Drawing) -> str:
+    return f"{needed} at least for {len(chosen.names)} dimensions: the shares follow from a quadratic surface"
+
+
+def by_reason(refused: Mapping[str, int]) -> str:
+    """Return how many pumps have each of the commonest reasons, and how many another one."""
+    shown = [
+        f"{count} by {reason.rstrip('.').replace(': ', ', such as ', 1)}"
+        for reason, count in [*refused.items()][:REASONS]
+    ]
+    others = sum(refused.values()) - sum([*refused.values()][:REASONS])
+    return ", ".join([*shown, *([f"{others} by others"] if others else [])])
 
 
 def _beyond_box(table: ResponseTable, variants: Iterable[Variant], known: Mapping[str, PumpKey]) -> Iterator[Fault]:

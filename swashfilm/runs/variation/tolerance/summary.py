@@ -10,10 +10,12 @@ import numpy as np
 
 from swashfilm.formats.versions import headed
 from swashfilm.runs.variation.case import VariedCase
+from swashfilm.runs.variation.tolerance.drawn import by_reason
 from swashfilm.runs.variation.tolerance.files import si_unit
 from swashfilm.runs.variation.words import size_text, where
 from system.description.drawn import Drawing, Drawn, DrawnFit, pump_sigma
 from system.description.keys import pump_keys
+from system.description.tolerance import Shape
 from system.inputs.shown import ROUND_OFF
 from system.maps.plan import point_words
 from system.maps.point import TableSolver
@@ -80,7 +82,7 @@ def _dimension_rows(case: VariedCase, drawing: Drawing) -> list[dict[str, Any]]:
         rows.append(
             {
                 "name": one.name, "keys": list(one.keys), "value": key.value, "text": key.text,
-                "unit": si_unit(key), "shape": one.shape.value,
+                "unit": si_unit(key), "shape": one.law,
                 "sigma": sigma, "sigma_text": size_text(key, sigma), "words": _words(one, key.shown),
             }
         )  # fmt: skip
@@ -94,10 +96,12 @@ def _words(one: Drawn | DrawnFit, shown: Callable[[float], str]) -> str:
         hole, shaft = (f"{shown(part[0])} to {shown(part[1])}" for part in (one.hole, one.shaft))
         sorting = f", paired in {one.classes} classes" if one.classes > 1 else ""
         return f"{one.shape.value}: hole {hole}, shaft {shaft}{sorting}{several}"
-    if np.isfinite(one.least):
-        return f"{one.shape.value}, {shown(one.least)} to {shown(one.most)}{several}"
+    ends = f"{shown(one.least)} to {shown(one.most)}" if np.isfinite(one.least) else ""
+    if one.shape is not Shape.NORMAL:
+        return f"{one.law}, {ends}{several}"
+    within = f", within {ends}" if ends else ""
     together = f"; {', '.join(one.keys[1:])} in proportion" if one.keys[1:] else ""
-    return f"{one.shape.value} about {shown(one.middle)}{together}{several}"
+    return f"{one.law} about {shown(one.middle)}{within}{together}{several}"
 
 
 def table_warnings(solver: object, found: Tolerance) -> Iterator[str]:
@@ -116,16 +120,18 @@ def table_warnings(solver: object, found: Tolerance) -> Iterator[str]:
 
 
 def warnings_of(found: Tolerance) -> list[str]:
-    """Return the reasons of pumps without a result, and numbers that the surface does not describe."""
-    said = [
-        f"pumps_refused: {count} of {found.pumps} pumps are refused by the geometry and have no part in the scatter: "
-        f"{reason.rstrip('.')}; narrow the tolerance that does it"
-        for reason, count in found.refused.items()
-    ]
-    said += [
-        f"points_failed: {count} of {found.pumps} pumps have no result: {reason}"
-        for reason, count in found.failed.items()
-    ]
+    """Return what keeps pumps from a result, and numbers that the surface does not describe."""
+    said = []
+    if found.refused:
+        said.append(
+            f"pumps_refused: {sum(found.refused.values())} of {found.pumps} pumps are refused by the geometry and have "
+            f"no part in the scatter: {by_reason(found.refused)}; narrow the tolerances of these dimensions"
+        )
+    if found.failed:
+        said.append(
+            f"points_failed: {sum(found.failed.values())} of {found.pumps} pumps have no result: "
+            f"{by_reason(found.failed)}; start the command again with --resume, or narrow the tolerances"
+        )
     rough = [
         one.words
         for one, own, part in zip(found.measures, found.scatters, found.surface.held_out, strict=True)

@@ -13,8 +13,9 @@ from toy_maps import LIMITS, SIGMA, ToySimulator, toy_observations, toy_recordin
 from diagnosis import Diagnosis, Explanation, NoteKind, Recording, Study, diagnose_study, hidden_effects
 from diagnosis.checks.outliers import scaled_places
 from diagnosis.detect.mismatch import confirmed, detect
+from diagnosis.explain import combinations
 from diagnosis.explain.held_out import beyond_chance, has_veto, held_out, regions
-from diagnosis.explain.hypotheses import hypotheses, simulator_of, together
+from diagnosis.explain.hypotheses import Hypothesis, hypotheses, simulator_of, together
 from diagnosis.explain.model_error import chance_of_form
 from diagnosis.explain.ranked import with_probabilities
 from diagnosis.explain.refit import refit, within_tolerance
@@ -25,6 +26,7 @@ from diagnosis.recording.model import DataNote
 from diagnosis.report.hidden import largest_size
 from diagnosis.study.map_axes import AXES, scaled_axes
 from diagnosis.study.model import Candidate, study_of
+from diagnosis.thresholds import Thresholds
 from diagnosis.verdict.diagnosis import ClaimedEffect, VerdictStatus
 from diagnosis.verdict.doubt import doubted, no_surer
 from diagnosis.verdict.judge import MISMATCHES, Judgement, judge
@@ -35,6 +37,9 @@ from reynolds import Array, NotConverged
 from system import ChannelName, Component, EffectId, Extension, Gap, Kind, Parameter, Role, Scale, load_pump
 from system.effects.extension import Entry
 from system.estimation.evidence import Sign, mixture_evidence, score
+from system.estimation.posterior import Posterior
+from system.work.processes import HERE
+from system.work.progress import silent
 
 POINTS = 96
 
@@ -407,6 +412,33 @@ def test_what_the_likeliest_pair_is_made_of_is_refitted_alone() -> None:
     assert {EffectId.CHURNING, EffectId.Q_CASE_OFFSET} <= fitted
 
 
+def test_pairs_begin_at_every_single_near_the_best(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The best single imitates two effects; the second of the singles leads to the pair."""
+    study = _study(1, laws=((CHURNING, 0.2),))
+    listed = [each for each in hypotheses(study, LIMITS) if each.effects and each.component is None]
+    churning = next(each for each in listed if each.effects == (EffectId.CHURNING,))
+    others = [each for each in listed if not set(each.effects) & {EffectId.CHURNING}][:2]
+    peak = refit(study, churning, LIMITS).posterior
+    singles = [
+        Explanation(own, evidence - own.log_prior, False, replace(peak), 0.0, 0.0, None)
+        for own, evidence in zip((others[0], churning, others[1]), (-10.0, -15.0, -60.0), strict=True)
+    ]
+
+    def gain(_study: Study, about: Posterior, hypothesis: Hypothesis, _limits: Thresholds) -> float:
+        return 60.0 if about is singles[1].posterior and hypothesis is others[1] else 0.0
+
+    def as_promised(_study: Study, tried: Sequence[Explanation], *_: object) -> tuple[list[Explanation], list[str]]:
+        return [replace(each, posterior=replace(peak)) for each in tried], []
+
+    monkeypatch.setattr(combinations, "linear_gain", gain)
+    monkeypatch.setattr(combinations, "settled", lambda posterior: posterior)
+    monkeypatch.setattr(combinations, "refit_all", as_promised)
+    monkeypatch.setattr(combinations, "_pairs", lambda *_: [])
+    found, _ = combinations.combine(study, singles, LIMITS, HERE, silent)
+    effects = {frozenset(each.hypothesis.effects) for each in found}
+    assert frozenset((*churning.effects, *others[1].effects)) in effects
+
+
 def test_a_law_of_another_form_is_named_without_stand_ins() -> None:
     """Churning that falls with viscosity too: named, incomplete, without a film that takes up what is left."""
     n, _, _, mu = _axes()
@@ -687,6 +719,27 @@ def test_unknown_physics_as_likely_as_a_name_is_in_its_class(gaps: float) -> Non
     assert found.claims[0].equivalent == ((EffectId.UNKNOWN_PHYSICS,) if near else ())
     odds = gaps * LIMITS.name.class_gap / LIMITS.name.temperature
     assert found.claims[0].probability == pytest.approx(1.0 / (1.0 + np.exp(-odds)), abs=1e-3)
+
+
+def test_a_fault_has_no_other_form_that_unknown_physics_could_be() -> None:
+    """A fault with a law is ahead of the fault by little, unknown physics of both by much: no fault is claimed."""
+    study = _study(1, laws=((CHURNING, 0.2),), Q_case__zero=0.3)
+    listed = hypotheses(study, LIMITS)
+    law = next(each for each in listed if each.effects == (EffectId.CHURNING,))
+    fault = next(each for each in listed if each.effects == (EffectId.Q_CASE_OFFSET,))
+    free = next(each for each in listed if each.component is Component.CASE_DRAG)
+    null, alone = refit(study, listed[0], LIMITS), refit(study, fault, LIMITS)
+    level = null.log_evidence + 1000.0
+
+    def at(explanation: Explanation, weight: float) -> Explanation:
+        return replace(explanation, log_evidence=weight - explanation.hypothesis.log_prior)
+
+    both = replace(refit(study, law, LIMITS), hypothesis=together(fault, law, LIMITS.prior.pair_penalty))
+    bend = Explanation(free, 0.0, True, None, 0.0, 0.0, None)
+    listed_all = (null, at(alone, level), at(both, level + 2.0), at(bend, level + 15.0))
+    ranked = with_probabilities(listed_all, LIMITS.name.temperature)
+    found = judge(study, detect(study, LIMITS), ranked, _coordinates(), LIMITS)
+    assert (found.kind, found.status, found.claims) == (Kind.UNKNOWN_PHYSICS, VerdictStatus.NAMED, ())
 
 
 @pytest.mark.parametrize("share", [0.1, 0.3, 0.6])

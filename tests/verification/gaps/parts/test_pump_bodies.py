@@ -11,7 +11,7 @@ import pytest
 from scipy.special import ive
 
 from gaps import BushingPart, PistonPart, PistonWalls, PlatePart, Pose, bushing_body, part_wall, piston_body, plate_body
-from gaps.walls.parts import SlipperPart, closer_at_end, closer_at_start, slipper_body, slipper_walls
+from gaps.walls.parts import SlipperPart, closer_at_end, closer_at_start, slipper_body
 from gaps.walls.piston import FaceGrid, face_grid
 from gaps.walls.user_mesh import CHAMBER, FILM
 from reynolds import (
@@ -28,6 +28,7 @@ from reynolds import (
     structure,
 )
 from reynolds.bodies.elasticity import pressure_forces
+from reynolds.bodies.foundation import both
 from reynolds.bodies.wall import BodyWall, FacePressure, FaceWall, load_deformation
 from reynolds.numerics.cache import CacheOrigin
 
@@ -357,10 +358,10 @@ def test_pocket_presses_on_slipper_and_plate(tmp_path):
     film = film_space(slipper_mesh(((8e-3, 14e-3),), (3, 24)), pockets=["pocket"])
     slipper = slipper_body(SlipperPart(0.5e-3, 8e-3, 7e-3, 14e-3, 5e-3, BRONZE), (6, 12, 1))
     plate = plate_body(PlatePart(0.0, 20e-3, 10e-3, STEEL, pocket_radius=8e-3), (4, 12, 1))
-    both = slipper_walls(slipper, plate, film, folder=tmp_path).matrix
+    together = both(*(part_wall(body, film, folder=tmp_path) for body in (slipper, plate))).matrix
     pocket = film.edge_dofs["pocket"][0]
     parts = [part_wall(body, film, folder=tmp_path) for body in (slipper, plate)]
-    assert both[:, pocket] == pytest.approx(sum(part.matrix[:, pocket] for part in parts), abs=0.0)
+    assert together[:, pocket] == pytest.approx(sum(part.matrix[:, pocket] for part in parts), abs=0.0)
     assert all(part.origin is CacheOrigin.CACHE for part in parts)  # kept from the first time
     radius = np.hypot(*film.vertices.T)
     rim, edge = radius > radius.max() * (1.0 - 1e-9), radius < radius.min() * (1.0 + 1e-9)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -22,6 +23,7 @@ from reynolds import (
     Compliance,
     Elastic,
     FilmInputError,
+    FilmNotConverged,
     FilmProblem,
     FilmSolver,
     Fluid,
@@ -36,6 +38,7 @@ from reynolds import (
     rectangle,
     winkler,
 )
+from reynolds.equation.deformation import MOST_HALVINGS, settled_deformation
 from reynolds.solve import solver as solve
 from reynolds.solve.loads import evaluate
 
@@ -186,3 +189,22 @@ def test_moments_count_the_pressure_of_contact():
     assert found.contact_load > 0.05 * found.load
     assert found.moment_x == pytest.approx(float(np.sum(total * y * space.area)), rel=1e-12)
     assert found.moment_y == pytest.approx(-float(np.sum(total * x * space.area)), rel=1e-12)
+
+
+def test_a_step_that_gains_nothing_goes_on_from_the_place_last_tried():
+    """Contact and imbalance are those of the place of the next step."""
+    tried, begun = [], []
+
+    def settled(rest):
+        begun.append(tried[-1])
+        return np.array([-1e-6])  # away from balance
+
+    def at(gap):
+        tried.append(gap[0])
+        return SimpleNamespace(on_unknowns=np.zeros(1), settled=settled)
+
+    meeting = SimpleNamespace(asperities=TOUCHING, compliance=np.zeros((1, 1)), at=at)
+    with pytest.raises(FilmNotConverged):
+        settled_deformation(meeting, np.array([1e-5]), np.zeros(1), np.array([1e-6]))
+    first_tries = tried[1::MOST_HALVINGS]
+    np.testing.assert_allclose(first_tries, np.array(begun) + 1e-6, rtol=1e-12)

@@ -173,11 +173,34 @@ def test_a_jump_is_taken_by_the_shortest_step():
     assert 0.3 < jumps[0].state.time < 0.3 + shortest
 
 
+def test_an_error_that_is_no_number_is_no_jump():
+    """The shortest step takes a jump, but no state whose error is not a number."""
+    swinging = stages(_swinging)
+
+    with pytest.raises(FilmNotConverged, match="error nan times its tolerance"):
+        next(integrate(BACKWARD_EULER, swinging, _start(2.0), [1.0], lambda taken: np.nan, shortest=1e-3))
+
+
 @METHODS
 def test_nodes_are_met(tableau):
     nodes = [0.1, 0.1001, 0.7, 1.3]
     taken = integrate(tableau, stages(_swinging), _start(2.0), nodes, within(1e-4))
     assert set(nodes) <= {step.state.time for step in taken}
+
+
+@METHODS
+def test_the_last_stage_is_at_the_node(tableau):
+    """The sum of a time and the way to a node may differ from it by round-off: a stage knows its node as itself."""
+    nodes = [0.6, 1.7]
+    assert nodes[0] + (nodes[1] - nodes[0]) != nodes[1]
+    swinging, solved = stages(_swinging), []
+
+    def solve(time, before, step, guess, last):
+        solved.append(time)
+        return swinging(time, before, step, guess, last)
+
+    list(integrate(tableau, solve, _start(2.0), nodes, nodes_only))
+    assert set(nodes) <= set(solved)
 
 
 @METHODS

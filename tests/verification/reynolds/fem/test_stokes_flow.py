@@ -168,6 +168,13 @@ def test_backward_step_reattaches(validation):
         )
 
 
+def test_a_fluid_at_rest_stays_at_rest():
+    """No wall moves: inertia changes nothing, and no change is compared with a velocity of zero."""
+    (flow,) = solve_navier_stokes(enclosed(triangles(3), 1.0, lambda x: 0.0 * x), [10.0])
+    assert flow.density == 10.0
+    assert not flow.velocity.any()
+
+
 def test_no_steady_flow_is_told():
     with pytest.raises(FilmNotConverged, match="no steady flow found beyond a density of"):
         backward_step(1, [1e6], (2.0, 3.0))

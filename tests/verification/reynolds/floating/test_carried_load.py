@@ -14,6 +14,7 @@ from reynolds import (
     FilmInputError,
     FilmNotConverged,
     FilmProblem,
+    FilmSolver,
     Held,
     RigidLoad,
     Surface,
@@ -153,3 +154,18 @@ def test_what_no_position_bears_is_told_with_the_nearest():
         carry_load(pressed, RigidLoad(10.0))
     with pytest.raises(FilmInputError, match="above zero"):
         RigidLoad(-1.0)
+
+
+def test_a_film_without_a_solution_is_solved_cold_once(monkeypatch):
+    """Without a film before, a cold start is the only one: it is not tried twice."""
+    solved = []
+
+    def fails(self, problem, start=None):
+        solved.append((problem.film.thickness.min(), start))
+        raise FilmNotConverged("made to fail", "nothing")
+
+    monkeypatch.setattr(FilmSolver, "solve", fails)
+    problem = _problem(_space(), lambda x, y: 1e-5 * (1.0 - x / LENGTH), velocity_moving=SLIDING)
+    with pytest.raises(FilmNotConverged, match="made to fail"):
+        carry_load(problem, RigidLoad(1.0))
+    assert len(solved) == len({thickness for thickness, _ in solved}) > 0

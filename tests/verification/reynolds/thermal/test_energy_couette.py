@@ -31,7 +31,7 @@ from reynolds import (
     solve_energy,
     solve_thermal,
 )
-from reynolds.thermal.film_profile import dowson, film_with, levels, shear_stress, velocity
+from reynolds.thermal.film_profile import dowson, film_with, levels, velocity
 from reynolds.thermal.walls import Wall
 
 DENSITY, SPECIFIC_HEAT, CONDUCTIVITY = 860.0, 2000.0, 0.14
@@ -243,15 +243,13 @@ def test_dowson_integrals(validation):
 
 
 def test_profile_of_constant_viscosity():
-    """The parabola and the line, and what they do to the walls."""
+    """The parabola and the line."""
     across = levels(5)
     profile = dowson(across, np.full((1, 5), VISCOSITY))
     h, slope, one, two = (np.array([value]) for value in (2e-5, 3e8, 4.0, -1.0))
     z = h * across.inner
     expected = slope / (2.0 * VISCOSITY) * z * (z - h) + two + (one - two) * z / h
     assert velocity(profile, h, one, two, slope)[0] == pytest.approx(expected, rel=1e-12)
-    stress = shear_stress(profile, h, one, two, slope)[0]
-    assert stress[[0, -1]] == pytest.approx(VISCOSITY * (one - two) / h + 0.5 * h * slope * np.array([-1.0, 1.0]))
     with pytest.raises(FilmInputError, match="viscosity across the film"):
         dowson(across, np.zeros((1, 5)))
     with pytest.raises(FilmInputError, match="levels"):

@@ -301,6 +301,27 @@ def test_wall_that_opens_by_its_heat(validation):
         solve_thermal(sheared(space), wrong, constant)
 
 
+@pytest.mark.parametrize("given", [-0.1 * GAP, -2.0 * GAP])
+def test_heat_opens_walls_that_overlap_without_their_oil(given):
+    """Springs that oil opens to GAP: their growth by heat g q is that of the rigid film, q = mu U^2/(GAP + g q)."""
+    space = endless()
+    count, stiff = len(space.vertices), 1e12
+    gain = 0.5 * GAP / (VISCOSITY * SPEED**2 / GAP)
+    grown = Grown(np.full(count, -0.1 * GAP), gain * np.eye(count))
+    heat = oil_heat(ConductingBody(np.full(count, INLET), 1e-6 * np.eye(count), grown), Adiabatic(), ("bottom", "top"))
+    pressed = dict.fromkeys(("bottom", "top"), Held(stiff * (GAP - given)))
+    rigid = sheared(space)
+    soft = replace(
+        rigid, film=replace(rigid.film, thickness=np.full((1, 1), given)), boundary=pressed, walls=winkler(space, stiff)
+    )
+    found = solve_thermal(soft, heat, constant, tolerance=1e-9)
+    expected = solve_thermal(rigid, heat, constant, tolerance=1e-9).film.film.thickness.mean()
+    assert found.film.film.thickness.mean() == pytest.approx(expected, rel=1e-7)
+    meeting = replace(soft, film=replace(rigid.film, thickness=np.zeros((1, 1))))
+    with pytest.raises(FilmInputError, match="0 m everywhere"):
+        solve_thermal(meeting, heat, constant)
+
+
 def test_plate_that_bends_and_warms(tmp_path):
     """A steel pad, elastic and heated by its film: temperature and both openings are its own equations'."""
     size = (LENGTH, LENGTH, 8e-3)

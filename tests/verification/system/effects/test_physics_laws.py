@@ -116,6 +116,27 @@ def test_heating_solves_its_balance(resistance, share, throttled, back):
     assert film_laws.film_heating(values, given, at).viscous[0, 0, 0] == pytest.approx(ratio, rel=1e-12)
 
 
+def test_rounds_come_as_near_as_they_say(monkeypatch):
+    """Films of any heat, leakage and walls: beside as many rounds as it takes."""
+    rng = np.random.default_rng(0)
+
+    def any_of(least, most):
+        return 10.0 ** rng.uniform(np.log10(least), np.log10(most))
+
+    for _ in range(300):
+        at, shares = state(any_of(30.0, 5000.0)), film_laws.HeatShares(*rng.uniform(0.0, [1.0, 1.0, 0.95]))
+        film = courses(
+            coulomb=any_of(0.1, 3e3), viscous=any_of(0.1, 1e4), leakage=any_of(1e-8, 3e-4), film=any_of(5e-7, 5e-5)
+        )[Gap.PISTON]
+        resistance = any_of(1e-6, 5e-3)
+        found = float(film_laws.film_rise(resistance, shares, film, at)[0])
+        with monkeypatch.context() as patched:
+            patched.setattr(film_laws, "WARM_PASSES", 400)
+            settled = float(film_laws.film_rise(resistance, shares, film, at)[0])
+        if settled < 60.0:
+            assert found == pytest.approx(settled, rel=0.01 if settled < 30.0 else 0.05)
+
+
 def test_heat_that_no_wall_takes_leaves_with_the_oil():
     """Both limits of one film: walls that take nothing, and a share of one."""
     at, given = state(2100), courses(coulomb=120.0, viscous=90.0)[Gap.PISTON]

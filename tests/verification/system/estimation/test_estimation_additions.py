@@ -105,6 +105,23 @@ def test_an_earlier_addition_that_the_later_ones_replace_is_dropped():
     assert found.kept == ("second", "first")
 
 
+def test_an_addition_without_which_no_fit_is_found_stays_with_the_reason():
+    """As above, but the two alone have no solution."""
+
+    def needs_both(values: Mapping[str, float]) -> Array:
+        if {"first", "second"} <= set(values) and "both" not in values:
+            raise NotConverged("no solution of the two")
+        return law(values)
+
+    model = FunctionSimulator(needs_both, (parameter("level"),))
+    found = ladder(model, read(first=30.0, second=60.0), possible("first", "second", "both"))
+    assert found.rungs[2].dropped == ()
+    (told,) = found.rungs[2].unfitted
+    assert told.startswith("both: ")
+    assert "no solution of the two" in told
+    assert set(found.kept) == {"both", "second", "first"}
+
+
 def test_additions_that_readings_do_not_tell_apart_are_rivals():
     found = ladder(MODEL, read(first=30.0), possible("first", "twin", "second"))
     (kept,) = found.kept

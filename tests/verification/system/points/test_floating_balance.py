@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from bench_pump import BENCH
 
+from gaps.films.slipper import Retainer
 from gaps.loads.block_tipping import BlockBalance
 from system import drives, floating_parts, load_pump, lumped_point, no_rubbing, operating_point, rotor
 from system.films.rotor import valve_plate_geometry
@@ -39,6 +40,20 @@ def test_a_slipper_is_told_the_radius_at_which_its_lands_lift_all(bench):
     assert "(100 %)" in wider.what
 
 
+def test_a_slipper_that_is_pulled_off_is_told_what_holds_it(bench):
+    """No force presses on that its lands could share: the retainer takes the pull, or nothing does."""
+    group, drive = bench[0], bench[1].slipper
+    for pull in (0.0, 300.0):
+        held = replace(drive, outer=lambda angle, pull=pull: np.array([pull, 1.0, 0.0]), retainer=Retainer(1e-5, 1e8))
+        told = slipper_shortfall(group, held, ANGLE)
+        assert f"at 200 deg nothing presses the slipper on: {pull:g} N pull it off its plate" in told.what
+        assert "retainer.clearance" in told.remedy
+    loose = slipper_shortfall(group, replace(held, retainer=None), ANGLE)
+    assert loose.what == "at 0 deg the slipper is pulled off its plate with 300 N, and no retainer holds it"
+    pressed = replace(held, outer=drive.outer, retainer=None)
+    assert "press on, its lands lift" in slipper_shortfall(group, pressed, ANGLE).what
+
+
 def test_a_block_that_tips_is_told_the_force_that_holds_it(bench):
     """With so much more spring the rest presses at the rim of its face: the balance of moments itself says so."""
     group, drive = bench[0], bench[1].block
@@ -62,6 +77,8 @@ def test_a_block_within_its_face_and_one_that_lifts_off(bench):
     told = block_shortfall(group, lifted, ANGLE)
     assert told.what.endswith("it lifts off")
     assert "narrower lands" in told.remedy
+    pulled = replace(drive, press=lambda angle: np.array([50.0, 0.0, 0.0]))
+    assert "at 200 deg 50 N pull it off its plate, its lands lift" in block_shortfall(group, pulled, ANGLE).what
 
 
 def test_a_piston_is_told_the_forces_at_both_ends_of_its_guide(bench):

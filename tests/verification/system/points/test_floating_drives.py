@@ -52,6 +52,24 @@ def test_piston_and_slipper_together_obey_newton():
         np.testing.assert_allclose(outside, moved, rtol=0.0, atol=1e-9 * np.linalg.norm(push))
 
 
+def test_a_slipper_without_lift_has_a_finite_moment():
+    """At the pressure at which its lift passes through zero the plate's moment is that beside it."""
+    group, parts = posed(retainer__kind="clearance")
+    rubbing = 37.0, np.array([-20.0, 11.0])
+
+    def at(pressure):
+        return group_instant(group, parts, 0.3, pressure, rubbing)
+
+    low, high = (at(pressure).forces.lift + at(pressure).held for pressure in (0.0, 1e7))
+    balanced = -low * 1e7 / (high - low)  # the lift is linear in the pressure
+    none, beside = at(balanced), at(balanced + 1.0)
+    assert abs(none.forces.lift + none.held) < 1e-6
+    np.testing.assert_allclose(none.couple, beside.couple, rtol=1e-6, atol=1e-9)
+    np.testing.assert_allclose(none.places, beside.places, rtol=0.0, atol=1e-12)
+    moved = np.cross(none.couple, plate_axes(group.drive)[2])
+    np.testing.assert_allclose(moved, none.pressed @ plate_axes(group.drive)[:2], rtol=1e-9)
+
+
 def test_the_piston_turns_about_its_guide_as_its_forces_ask():
     """The forces on both ends of the guide balance force and moment of joint, mass and friction."""
     group, parts = posed()

@@ -5,6 +5,7 @@ A held plate is the operating point; free swings and stops against closed forms;
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,7 @@ from bench_pump import BENCH
 
 from reynolds import InputError
 from system import joint_forces, load_pump, lumped_point, operating_point, orifice_flow
+from system.multibody.plate_motion import mechanism
 from system.multibody.transient import kernels as kernel
 from system.multibody.transient.solver import ControlPressure, Transient, TransientCase, Transition, run_transient
 
@@ -106,6 +108,17 @@ def test_a_fall_of_the_control_pressure_sets_the_plate_back(destroked):
     flow = destroked.rows[:, kernel.DELIVERY]
     assert flow[-840:].mean() < 0.1 * flow[1:400].mean()
     assert {taken.path for taken in destroked.mechanism.taken} >= {"actuator.area", "swash_plate.inertia"}
+
+
+def test_an_assumed_actuator_is_that_of_the_pump_at_its_rating():
+    pump = load_pump(BENCH)
+    found = mechanism(pump).actuator
+    rated = operating_point(pump, shaft_speed=pump.pump.rated_speed, delivery_pressure=pump.pump.rated_pressure)
+    moment = np.max(np.abs(joint_forces(pump, lumped_point(pump, rated)).plate.control))
+    held = 2.5e6 * found.area * found.arm * np.cos(pump.pump.swash_angle_max)
+    assert held == pytest.approx(moment, rel=1e-12)
+    slow = replace(pump, operating=replace(pump.operating, speed=0.5 * pump.operating.speed, pressure=10e6))
+    assert mechanism(slow).actuator == found
 
 
 def test_oil_is_kept_and_energy_balances(destroked):

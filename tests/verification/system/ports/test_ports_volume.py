@@ -22,10 +22,10 @@ from system import (
     piston_velocity,
 )
 from system.pump.chamber.port_coupling import SETTLED, PortedCycle, ported_cycle
-from system.pump.chamber.port_volume import Supply, line_power, port_balance
+from system.pump.chamber.port_volume import Supply, line_flow, line_power, port_balance
 from system.pump.chamber.problem import ChamberProblem, LeakTable
 from system.pump.laws.kinematics import drive_at_ratio, stand_out
-from system.pump.ports.lines import HeldPressure, Impedance, Line, Lines, OrificeLine, volume_impedance
+from system.pump.ports.lines import HeldPressure, Impedance, Line, Lines, OrificeLine
 
 DEGREES = np.pi / 180.0
 AREA = np.pi / 4 * 22e-3**2
@@ -35,6 +35,11 @@ PISTONS, SAMPLES = 9, 360
 PERIOD = 2 * np.pi / (PISTONS * SPEED)
 TIMES = PERIOD * np.arange(40) / 40
 CLOSED = Impedance(np.array([1.0, 1e6]), np.full(2, 1e30 + 0j))
+
+
+def volume_impedance(volume: float, bulk_modulus: float, frequency: np.ndarray) -> np.ndarray:
+    """Z = K/(i w V), Pa s/m3, of a closed volume V (m3) of oil at frequencies in Hz; small ripple, no waves."""
+    return bulk_modulus / (2j * np.pi * frequency * volume)
 
 
 def pump(delivery_pressure: float = 35e6, ratio: float = 1.0) -> ChamberProblem:
@@ -275,6 +280,9 @@ def test_what_cannot_be_is_refused(tmp_path):
         OrificeLine(0.0, 0.0)
     with pytest.raises(NotConverged, match="expected both of one sign"):
         ported_cycle((pump(),), Lines(OrificeLine(1e-3, 40e6)), PISTONS, SAMPLES)
+    level = np.full(40, 40e6)  # of the tank: no area passes anything
+    with pytest.raises(NotConverged, match="to pass at 0 MPa over the tank"):
+        line_flow(OrificeLine(1e-3, 40e6), level, Supply(PERIOD, 1e-3, np.zeros(40), np.zeros(40), 0.0), pump())
     with pytest.raises(NotConverged, match="suction port: its pressure falls"):
         ported_cycle((pump(),), Lines(suction=OrificeLine(1e-3, 0.0, 60e-6)), PISTONS, SAMPLES)
     narrow = Impedance(np.array([300.0, 400.0]), np.ones(2) * 1e9j)

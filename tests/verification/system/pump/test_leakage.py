@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from system import piston_conductance, slipper_conductance, valve_plate_conductance
-from system.pump.laws.leakage import piston_drag_flow, slipper_leakage_short_orifice
+from system.pump.laws.leakage import piston_drag_flow
 
 MU = 25.8e-3
 
@@ -39,15 +39,6 @@ def test_slipper_is_orifice_and_land_in_series():
     # "With d_o = 1 mm the orifice takes 0.02 % of the drop at 10 um" (seed)
     share = 128 * MU * 5e-3 / (np.pi * 1e-3**4) * slipper_conductance(log, h, 1e-3, 5e-3, MU)
     assert share == pytest.approx(2e-4, rel=0.3)
-
-
-@pytest.mark.parametrize("drop", [-2e7, 0.0, 1e3, 3.5e7])
-def test_short_orifice_adds_its_own_drop(drop):
-    conductance, diameter, coefficient, density = 2e-12, 0.3e-3, 0.7, 860.0
-    flow = slipper_leakage_short_orifice(drop, conductance, diameter, coefficient, density)
-    velocity = flow / (coefficient * np.pi / 4 * diameter**2)
-    total = flow / conductance + density / 2 * velocity * abs(velocity)
-    assert total == pytest.approx(drop, rel=1e-12, abs=1e-9)
 
 
 def test_valve_plate_pitches_add_up_to_two_whole_discs():

@@ -95,7 +95,7 @@ def test_uniform_normal_force_balances_the_spring():
     count = 360
     psi = 2 * np.pi * np.arange(count) / count
     inward = -contact_point(GUIDE, SWASH, psi) / GUIDE.radius
-    each = uniform_normal_force(spring, GUIDE, SWASH) / count
+    each = uniform_normal_force(spring, GUIDE, np.cos(SWASH)) / count
     assert -(each * inward[0]).sum() == pytest.approx(spring, rel=1e-12)
 
 

@@ -10,7 +10,7 @@ from bench_pump import BENCH
 
 from reynolds import InputError
 from system import load_pump, lumped_point, operating_point
-from system.maps.displacement import intercept_displacement, toet_displacement
+from system.maps.displacement import toet_displacement
 
 V = 89.86e-6
 SPEEDS = np.array([1000.0, 1300.0, 1700.0, 2100.0, 2500.0]) * np.pi / 30
@@ -54,21 +54,13 @@ def test_set_points_may_scatter():
 
 def test_sigma_of_three_points_is_that_of_their_line():
     """Displacements V + d (1, -2, 1) at 1, 2, 3 x 10 MPa: a level line, 6 d^2/(3 - 2) about it."""
-    speed, step = np.full(3, SPEEDS[0]), 1e-9
-    difference = np.array([1.0, 2.0, 3.0]) * 1e7
-    flow = speed / (2 * np.pi) * (V + step * np.array([1.0, -2.0, 1.0]))
-    found = intercept_displacement(speed, difference, flow)
+    speed, step = np.tile(SPEEDS[:2], 3), 1e-9
+    difference = np.repeat([1.0, 2.0, 3.0], 2) * 1e7
+    flow = speed / (2 * np.pi) * (V + step * np.repeat([1.0, -2.0, 1.0], 2))
+    found = toet_displacement(speed, difference, flow)
     assert found.value == pytest.approx(V, rel=1e-12)
     assert found.sigma == pytest.approx(step * np.sqrt(6.0 * (1.0 / 3.0 + 2.0**2 / 2.0)), rel=1e-6)
     assert found.residual == pytest.approx(step * np.sqrt(2.0), rel=1e-6)
-
-
-def test_the_intercept_takes_a_loss_without_pressure_for_displacement():
-    one = MAP[MAP[:, 0] == SPEEDS[3]].T
-    lost = 1e-5
-    flow = one[0] / (2 * np.pi) * V - 1e-12 * one[1] - lost
-    found = intercept_displacement(*one, flow)
-    assert found.value == pytest.approx(V - lost * 2 * np.pi / SPEEDS[3], rel=1e-12)
 
 
 def test_too_few_levels_are_refused_or_told():
@@ -77,8 +69,6 @@ def test_too_few_levels_are_refused_or_told():
     one_pressure = MAP[MAP[:, 1] == DIFFERENCES[0]].T
     with pytest.raises(InputError, match="two pressure differences"):
         toet_displacement(*one_pressure, _flow(*one_pressure))
-    with pytest.raises(InputError, match="several shaft speeds"):
-        intercept_displacement(*MAP.T, _flow(*MAP.T))
 
 
 def test_ref90_displaces_less_by_toet_than_it_sweeps():

@@ -180,6 +180,23 @@ def test_a_killed_run_costs_what_was_at_work(solves, tmp_path):
     assert Squares(solves).solves() == begun + len(PARTS) - kept
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("times", [1, 2])
+def test_ctrl_c_ends_a_run_whose_parts_at_work_are_kept(solves, tmp_path, times):
+    """Once: the parts at work are ended and kept. Twice at once, as some shells send it: the run ends all the same."""
+    run = subprocess.Popen([sys.executable, __file__, str(solves), str(tmp_path / "points")], stderr=subprocess.DEVNULL)
+    store, deadline = KeptPoints(tmp_path / "points"), time.monotonic() + 300.0
+    while len(list(store.folder.glob("*.json"))) < 2 and time.monotonic() < deadline:
+        time.sleep(0.02)
+    for _ in range(times):
+        run.send_signal(signal.SIGINT)
+    assert run.wait(60.0) != 0
+    kept, begun = len(list(store.folder.glob("*.json"))), len(list(solves.iterdir()))
+    assert kept == begun if times == 1 else kept <= begun
+    time.sleep(1.0)  # nothing of the run is left at work
+    assert len(list(store.folder.glob("*.json"))) == kept < len(PARTS)
+
+
 if __name__ == "__main__":
     with process_pool(2) as executor:
         run_kept(Squares(Path(sys.argv[1]), seconds=0.4), PARTS, KeptPoints(Path(sys.argv[2])), executor)

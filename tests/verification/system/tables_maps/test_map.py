@@ -10,14 +10,16 @@ from bench_pump import BENCH
 from scipy.interpolate import NdBSpline
 
 from reynolds import InputError
+from swashfilm.output.warnings import causes
 from system import InputFaults, load_pump, lumped_point, map_plan, operating_point
 from system.inputs.sections.fields import fields_of
 from system.maps.compare import compare
-from system.maps.data import LOSSES, best_points, map_data
+from system.maps.data import LOSSES, best_points, map_data, warning_counts
 from system.maps.duty import Cycle, duty
 from system.maps.interpolation import MapInterpolant, axis_spline, check_points, fresh_error, left_out_error, weights
-from system.maps.plan import MapAxis, MapInput, paper_axes
+from system.maps.plan import MapAxis, MapInput
 from system.maps.point import LumpedSolver, MapWork, point_numbers
+from system.maps.usual_levels import usual_axes
 from system.pump.efficiency import EfficiencyDefinition
 from system.work.tasks import PartStatus, done_part
 
@@ -45,7 +47,7 @@ def fresh(first, count):
 
 
 def test_the_papers_plan_has_112_points():
-    plan = map_plan(PUMP, paper_axes())
+    plan = map_plan(PUMP, usual_axes(PUMP))
     assert plan.shape == (4, 7, 4, 1, 1)
     assert len(plan.points) == 112
     assert plan.points[0].inlet_pressure == PUMP.operating.inlet_pressure
@@ -53,14 +55,44 @@ def test_the_papers_plan_has_112_points():
     assert plan.checked().faults == ()
 
 
+@pytest.mark.parametrize(
+    ("speed", "pressure", "speeds", "pressures"),
+    [
+        ("2100 rpm", "35 MPa", [1000, 1300, 1700, 2100], [5, 10, 15, 20, 25, 30, 35]),
+        ("2600 rpm", "28 MPa", [1250, 1600, 2100, 2600], [4, 8, 12, 16, 20, 24, 28]),
+        ("3333 rpm", "25 MPa", [1600, 2050, 2700, 3333], [3.5, 7, 10.5, 14.5, 18, 21.5, 25]),
+        ("600 rpm", "6 MPa", [285, 370, 485, 600], [2.55, 3.45, 4.3, 5.15, 6]),  # above the inlet's 2.5 MPa
+    ],
+)
+def test_usual_levels_are_the_papers_shares_of_the_rating(speed, pressure, speeds, pressures):
+    stated = {"pump.rated_speed": speed, "pump.rated_pressure": pressure}
+    pump = load_pump("ref90", stated | {"operating.speed": speed, "operating.pressure": pressure})
+    axes = usual_axes(pump)
+    np.testing.assert_allclose(np.array(axes[0].values) / RPM, speeds, rtol=1e-12)
+    np.testing.assert_allclose(np.array(axes[1].values) / 1e6, pressures, rtol=1e-12)
+    report = map_plan(pump, axes).checked()
+    assert not report.faults
+    assert not {"operating.speed", "operating.pressure"} & set(report.warnings)
+
+
 def test_faults_of_points_are_told_once_before_any_is_solved():
     axes = (MapAxis(MapInput.PRESSURE, (1e6, 20e6)), MapAxis(MapInput.SPEED, (100.0, 150.0, 900.0)))
     found = map_plan(PUMP, axes).checked()
     assert [fault.path for fault in found.faults] == ["operating.pressure"]
-    assert any("at 2 points" in text and "rated_speed" in text for text in found.warnings.values())
+    told = next(one for one in causes(found.warnings.values()) if one.name == "operating.speed")
+    assert told.title == "Above the rated speed"
+    assert told.texts[0].startswith("at 2 of 6 points; at the first: 8594 rpm, limit rated_speed, 2100 rpm")
+    assert told.remedies == ("stay below it, or state a higher rated_speed where the pump is made for it",)
     for values in ((), (2.0, 1.0), (1.0, 1.0)):
         with pytest.raises(InputError, match="rise"):
             MapAxis(MapInput.RATIO, values)
+
+
+def test_a_map_counts_the_points_far_below_the_speeds_of_the_coefficients():
+    speeds = MapAxis(MapInput.SPEED, tuple(RPM * speed for speed in (20.0, 500.0, 2100.0)))
+    count, text = warning_counts(solved((speeds,)))["friction_at_low_speed"]
+    assert count == 1
+    assert "turns at 20 rpm (limit 500 rpm: half of 1000 rpm" in text
 
 
 def numbers_of(model, path=()):
@@ -231,6 +263,34 @@ def test_a_cycle_with_steps_and_ramps_is_within_its_error():
         duty(interpolant, cycle_of([0, 3], [150, 150], [20e6, 40e6], [0.6, 0.6]), left_out_error(solved()))
     with pytest.raises(InputError, match="two rows"):
         cycle_of([0], [150], [20e6], [0.6])
+
+
+def _scaled(data, **factors):
+    """The map with some of its columns times a factor."""
+    return replace(data, values={**data.values, **{name: by * data.values[name] for name, by in factors.items()}})
+
+
+@pytest.mark.parametrize("factors", [{"shaft_power": 0.0}, {"shaft_power": -1.0}, {"hydraulic_power": -1.0}])
+def test_a_cycle_that_does_not_pump_has_no_efficiency(factors):
+    """At standstill and while it motors energies are what they are; a ratio of them means nothing."""
+    error = replace(left_out_error(solved()), largest=dict.fromkeys(solved().values, 1.0))
+    cycle = cycle_of([0, 10], [1800 * RPM] * 2, [20e6] * 2, [1.0] * 2)
+    usual, found = (duty(MapInterpolant(data), cycle, error) for data in (solved(), _scaled(solved(), **factors)))
+    assert len(usual.efficiency) == len(EfficiencyDefinition)
+    assert found.efficiency == {}
+    assert {"shaft", "hydraulic", "loss"} <= set(found.energies)
+
+
+def test_points_without_power_at_the_shaft_leave_the_error_of_an_efficiency():
+    """Both maps at other levels, one with points that motor: their error is that of the points that pump."""
+    data, error = solved(), left_out_error(solved())
+    power = data.values["shaft_power"].copy()
+    power[0, 0] *= -1e-9
+    motoring = replace(data, values={**data.values, "shaft_power": power})
+    axes = (MapAxis(MapInput.SPEED, AXES[0].values[:-1]), *AXES[1:])
+    found = compare(motoring, solved(axes), (error, error)).differences[0]
+    assert found.words.startswith("overall efficiency")
+    assert 0.0 < found.error < 0.1
 
 
 def test_a_map_beside_itself_has_no_difference():

@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import math
 import pickle
+import re
 from dataclasses import asdict, dataclass, replace
 from types import SimpleNamespace
 
@@ -270,8 +271,12 @@ def test_a_table_comes_back_from_its_files(table, tmp_path):
 def test_another_inlet_pressure_is_refused(table):
     with pytest.raises(InputError, match="inlet pressure"):
         table_point(PUMP, operating_point(PUMP, inlet_pressure=1e6), table)
-    with pytest.raises(InputError, match="nothing is extrapolated"):
-        table_point(PUMP, operating_point(PUMP, shaft_speed=1.0), table)
+    with pytest.raises(InputError, match="nothing is extrapolated") as told:
+        table_point(PUMP, operating_point(PUMP, shaft_speed=np.pi / 3.0, delivery_pressure=90e6), table)
+    assert told.value.where == "shaft speed, delivery pressure"
+    assert told.value.found == "10 rpm, 90 MPa"
+    box = r"[\d.]+ rpm \.\. [\d.]+ rpm, [\d.]+ MPa \.\. [\d.]+ MPa, the table's box: .*"
+    assert re.fullmatch(box, told.value.expected)
 
 
 def test_a_line_of_stated_orifice_is_met(table):

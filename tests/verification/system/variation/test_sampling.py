@@ -11,7 +11,8 @@ from system.description.keys import pump_keys
 from system.description.tolerance import Shape
 from system.inputs.faults import InputFaults
 from system.inputs.sections.reader import with_values
-from system.pump_file.file import resolved_toml
+from system.pump_file.file import resolved_toml, varied
+from system.variation.admitted import trial
 from system.variation.sampling import alike, below, drawn_series, fit_values, groups, part_of, quantile
 
 COUNT = 40_000
@@ -123,6 +124,56 @@ def test_sigmas_of_the_table_are_dimensions():
     assert sigma["friction.ball_guide_retainer"] == pytest.approx(0.06)
     assert sigma["piston.eccentricity_ratio"] == pytest.approx(0.08 / 0.6)
     assert not drawing.fits
+
+
+@pytest.mark.parametrize("share", [0.05, 0.6])
+def test_a_relative_sigma_is_that_of_the_logarithm(share):
+    """As the priors of a fit have it: the stated value is the median, within a tenth and ten times of it."""
+    pump = load_pump("ref90", {"tolerance.friction": share})
+    found = drawn_values(pump, "friction.piston_cylinder")
+    stated = pump.friction.piston_cylinder
+    logs, far = np.log(found / stated) / share, np.log(10.0) / share
+    assert stats.kstest(logs, stats.truncnorm(-far, far).cdf).pvalue > 1e-3
+    (prior,) = [p for p in base_parameters(pump, tolerances(pump)[0]) if p.name == "friction.piston_cylinder"]
+    assert (prior.lower, prior.upper) == (pytest.approx(0.1 * stated), pytest.approx(10.0 * stated))
+    assert prior.value(1.0) == pytest.approx(stated * np.exp(share))
+
+
+def test_a_coefficient_is_cut_where_no_pump_has_more():
+    pump = load_pump("ref90", {"tolerance.flow_coefficient": 0.3, "tolerance.eccentricity_ratio": 0.5})
+    assert 0.95 < drawn_values(pump, "ports.flow_coefficient").max() <= 1.0
+    ratio = drawn_values(pump, "piston.eccentricity_ratio")
+    of = stats.truncnorm(-0.6 / 0.5, 0.35 / 0.5, 0.6, 0.5)
+    assert stats.kstest(ratio, of.cdf).pvalue > 1e-3
+
+
+def test_pumps_of_wide_sigmas_are_all_pumps():
+    """The sigmas of a pump that is known by its type plate: none is refused."""
+    wide = {"friction": 0.6, "guide_friction": 0.6, "bearing_friction": 0.6, "film_thickness": 0.5,
+            "flow_coefficient": 0.3, "eccentricity_ratio": 0.2, "dead_volume": 0.3, "bulk_modulus": 0.1}  # fmt: skip
+    pump = load_pump("ref90", {f"tolerance.{key}": value for key, value in wide.items()})
+    found = trial(pump, list(drawn_series(drawing_of(pump), 300, 1).variants(pump)))
+    assert (found.tried, found.refused) == (300, {})
+
+
+def test_refused_pumps_are_counted_by_the_key_that_refuses_them():
+    rows = [{"key": "slipper.film_thickness", "shape": "normal", "sigma": "100 %"},
+            {"key": "ports.flow_coefficient", "shape": "uniform", "least": "0.5", "most": "1.1"}]  # fmt: skip
+    pump = pump_with(dimension=rows)
+    found = trial(pump, list(drawn_series(drawing_of(pump), 300, 1).variants(pump)))
+    keys = [reason.partition(":")[0] for reason in found.refused]
+    assert set(keys) == {"slipper.film_thickness", "ports.flow_coefficient"}
+    assert found.share == pytest.approx(1.0 - 5.0 / 6.0 * stats.norm.cdf(1.0), abs=0.06)
+    assert any(" um, expected at least 0.01 um" in reason for reason in found.refused)
+
+
+def test_every_value_beyond_its_limit_is_told():
+    with pytest.raises(InputFaults) as reason:
+        varied(load_pump("ref90"), (("slipper.film_thickness", -1e-6), ("friction.front_bearing", -0.1)))
+    assert [fault.line for fault in reason.value.faults] == [
+        "slipper.film_thickness: -1 um, expected at least 0.01 um: oil thinner than 10 nm is no continuum",
+        "friction.front_bearing: -0.1, expected at least 0",
+    ]
 
 
 def test_both_viscosities_scatter_in_proportion():

@@ -189,6 +189,39 @@ def test_gradient_meets_a_line(tmp_path):
     assert len(found.designs) < 60
 
 
+def test_gradient_beside_designs_without_a_result(tmp_path):
+    """A neighbour of the start has no result, which is no measure of an objective of a millionth."""
+    lightest = KEYS[X].value
+
+    def loss(x, y):
+        if x > lightest:
+            raise NotConverged("no pump of such a mass")
+        return 1e-6 * (y - 2.0) ** 2
+
+    asked = problem((Objective(LOSS, Aim.LEAST),), (), ((lightest, 5.0), (0.0, 3.0)))
+    found = solved(tmp_path, asked, Toy((("loss", loss),)), partial(descend, step=1e-4, iterations=40))
+    (best,) = found.pareto.members
+    place = [value for _, value in found.problem.variant(found.designs[best].place)]
+    assert place == pytest.approx((lightest, 2.0), abs=2e-2)
+
+
+@pytest.mark.parametrize(
+    ("few", "enough"),
+    [
+        (partial(descend, step=1e-4, iterations=1), partial(descend, step=1e-4, iterations=40)),
+        (partial(approach, designs=8, last=1e-4), partial(approach, designs=200, last=1e-3)),
+    ],
+    ids=["gradient", "trust region"],
+)
+def test_a_search_tells_whether_it_has_settled(tmp_path, few, enough):
+    toy = Toy((("loss", lambda x, y: 1.0 + (x - 4.0) ** 2 + (x - y) ** 2),))
+    asked = problem((Objective(LOSS, Aim.LEAST),), ())
+    broken, ended = solved(tmp_path / "few", asked, toy, few), solved(tmp_path / "enough", asked, toy, enough)
+    assert (broken.ending.settled, broken.ending.out_of_steps) == (False, True)
+    assert (ended.ending.settled, ended.ending.out_of_steps) == (True, False)
+    assert solved(tmp_path / "evolution", asked, toy, evolution(8, 2)).ending is None
+
+
 def test_choice_of_the_search():
     assert usual_method(problem(), costly=True)[0] is Method.EVOLUTION
     method, why = usual_method(problem(TWO[:1]), costly=False)
