@@ -12,9 +12,7 @@ STIFFER = 2.0
 """Springs of an open circuit over those of a closed one, whose inlet presses slippers on the plate by itself."""
 SUCTION_BEGINS = math.radians(0.0)
 SUCTION_GROOVE_ENDS = math.radians(4.0)  # then the kidney opens: a groove alone starves a chamber that fills
-SUCTION_SHUTS = math.radians(
-    182.0
-)  # past the dead centre, so that the last of the stroke is not drawn from a shut port
+SUCTION_SHUTS = math.radians(182.0)  # past the dead centre: the last of the stroke still draws
 DELIVERY_BEGINS = math.radians(2.5)  # half a degree after the suction port shuts
 DELIVERY_GROOVE_ENDS = math.radians(8.0)
 DELIVERY_SHUTS = math.radians(179.5)  # half a degree before the suction port opens
