@@ -198,6 +198,7 @@ def test_ctrl_c_ends_a_run_whose_parts_at_work_are_kept(solves, tmp_path, times)
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's job in the background ignores it
     with process_pool(2) as executor:
         run_kept(Squares(Path(sys.argv[1]), seconds=0.4), PARTS, KeptPoints(Path(sys.argv[2])), executor)
 
