@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
@@ -39,12 +40,8 @@ def trial(pump: PumpDescription, variants: Sequence[Variant]) -> Trial:
 def commonest(reasons: Iterable[str]) -> dict[str, int]:
     """Return reasons with how many pumps have each, the commonest first; of one subject they stand under the first."""
     first: dict[str, str] = {}
-    count: dict[str, int] = {}
-    for reason in reasons:
-        subject = _subject(reason)
-        words = first.setdefault(subject, reason)
-        count[words] = count.get(words, 0) + 1
-    return dict(sorted(count.items(), key=lambda one: -one[1]))
+    count = Counter(first.setdefault(_subject(reason), reason) for reason in reasons)
+    return dict(count.most_common())
 
 
 def _refusal(pump: PumpDescription, variant: Variant) -> str:

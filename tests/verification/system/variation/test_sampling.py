@@ -12,7 +12,7 @@ from system.description.tolerance import Shape
 from system.inputs.faults import InputFaults
 from system.inputs.sections.reader import with_values
 from system.pump_file.file import resolved_toml, varied
-from system.variation.admitted import trial
+from system.variation.admitted import commonest, trial
 from system.variation.sampling import alike, below, drawn_series, fit_values, groups, part_of, quantile
 
 COUNT = 40_000
@@ -307,3 +307,9 @@ def test_a_partial_section_has_no_keys_of_others():
     pump = load_pump("ref90")
     assert "bore.wall" not in pump_keys(pump)
     assert "bore.wall" in pump_keys(with_values(pump, bore=with_values(pump.bore, wall=3e-3)))
+
+
+def test_the_commonest_reasons_come_first_each_subject_under_its_first():
+    reasons = ["a.b: 3 mm", "c.d: 1 mm", "c.d: 2 mm", "no film at 3 deg", "no film at 5 deg", "no film at 7 deg"]
+    found = commonest(reasons)
+    assert list(found.items()) == [("no film at 3 deg", 3), ("c.d: 1 mm", 2), ("a.b: 3 mm", 1)]

@@ -189,14 +189,15 @@ def test_gradient_meets_a_line(tmp_path):
     assert len(found.designs) < 60
 
 
-def test_gradient_beside_designs_without_a_result(tmp_path):
-    """A neighbour of the start has no result, which is no measure of an objective of a millionth."""
+@pytest.mark.parametrize("level", [0.0, 1e-3])
+def test_gradient_beside_designs_without_a_result(tmp_path, level):
+    """A neighbour of the start has no result, which is no measure of an objective of a millionth, at any level."""
     lightest = KEYS[X].value
 
     def loss(x, y):
-        if x > lightest:
+        if x > 1.001 * lightest:
             raise NotConverged("no pump of such a mass")
-        return 1e-6 * (y - 2.0) ** 2
+        return level + 1e-6 * (y - 2.0) ** 2
 
     asked = problem((Objective(LOSS, Aim.LEAST),), (), ((lightest, 5.0), (0.0, 3.0)))
     found = solved(tmp_path, asked, Toy((("loss", loss),)), partial(descend, step=1e-4, iterations=40))
