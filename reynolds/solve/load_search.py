@@ -212,7 +212,7 @@ class _LoadSearch:
         return two
 
     def _bracket(self, lean: tuple[float, float]) -> tuple[tuple[float, _Tried], tuple[float, _Tried]]:
-        """Places of less and of more than the load, next to each other; raises _Nowhere where there are none."""
+        """Places of less and of more than the load, next to each other; raises _Nowhere without such places."""
         at = 0.0 if self._problem.walls is None else SOFT_START
         last = self.at(self._leaning(at, lean))
         longest = MOST_STEP

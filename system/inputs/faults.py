@@ -25,7 +25,7 @@ class Fault:
 
     @property
     def line(self) -> str:
-        """Where, what was found and what was expected, in a line."""
+        """Place, finding and expectation in one line."""
         return f"{self.path}: {self.found}, expected {self.expected}"
 
 

@@ -23,6 +23,15 @@ CAVITATION_PRESSURE_ABS = 5e3
 FILLING_PRESSURE_ABS = 80e3
 # Of its volume; a mineral oil (1.4 to 2 GPa, stiffer as it is pressed) is not compressed so far by any pump.
 LARGE_COMPRESSION = 0.1
+VISCOSITY_KEYS = (
+    "oil.kinematic_viscosity_40C",
+    "oil.kinematic_viscosity_100C",
+    "operating.temperature",
+    "oil.density",
+    "oil.bulk_modulus",
+    "oil.specific_heat",
+)
+"""Keys that the oil's viscosity at the operating temperature needs."""
 # Makers' limits of a mineral oil in an axial piston pump, m2/s: Bosch Rexroth, RE 92714 (A10VSO, 10.2014): 10 to 400
 # in continuous operation, up to 1600 at a cold start, for minutes and without load.
 THINNEST = 10e-6
@@ -139,14 +148,7 @@ def displacement_ratio_is_possible(pump: PumpDescription) -> Iterator[Finding]:
         yield Fault("operating.displacement_ratio", f"{ratio:g}", "more than 0 and at most 1 (full displacement)")
 
 
-@needs(
-    "oil.kinematic_viscosity_40C",
-    "oil.kinematic_viscosity_100C",
-    "operating.temperature",
-    "oil.density",
-    "oil.bulk_modulus",
-    "oil.specific_heat",
-)
+@needs(*VISCOSITY_KEYS)
 def oil_has_a_viscosity(pump: PumpDescription) -> Iterator[Finding]:
     """The oil thins from 40 to 100 degC, and Walther's law holds at the operating temperature."""
     temperature = pump.operating.temperature
@@ -162,14 +164,7 @@ def oil_has_a_viscosity(pump: PumpDescription) -> Iterator[Finding]:
         yield Fault("operating.temperature", shown, f"where the oil's law holds: {reason.expected}")
 
 
-@needs(
-    "oil.kinematic_viscosity_40C",
-    "oil.kinematic_viscosity_100C",
-    "operating.temperature",
-    "oil.density",
-    "oil.bulk_modulus",
-    "oil.specific_heat",
-)
+@needs(*VISCOSITY_KEYS)
 def oil_is_neither_thick_nor_thin(pump: PumpDescription) -> Iterator[Finding]:
     """The oil's viscosity at the operating temperature is one that makers of pumps allow."""
     temperature = pump.operating.temperature

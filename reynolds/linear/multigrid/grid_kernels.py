@@ -38,7 +38,7 @@ def _owners(cells, size):
 def _cross(cells, first, owner, cell, a, b):
     """The cell on the other side of the edge a, b, with the local numbers of a and b there.
 
-    Cell -1 where there is none, -2 where it is not one cell with a and b side by side.
+    Cell -1 outside the mesh, -2 where it is not one cell with a and b side by side.
     """
     found, at_a, at_b = -1, 0, 0
     if a == b or first[a + 1] - first[a] > 4:

@@ -141,7 +141,7 @@ def _both(
 
 
 def _read(name: str) -> Side:
-    """Return the map of a path; raise InputFaults where there is none."""
+    """Return the map of a path; raise InputFaults without one."""
     from swashfilm.runs.compare.run import Side
     from swashfilm.runs.map.files import map_file, read_map
     from system.pump_file.file import builtin_pumps

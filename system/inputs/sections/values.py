@@ -181,7 +181,7 @@ def listed_rows(raw: object, layouts: tuple[Points, ...]) -> tuple[tuple[float, 
 
 
 def _layout(layouts: tuple[Points, ...], rows: Sequence[Sequence[object]]) -> Points:
-    """Return the layout with as many columns as the first row has; the first one if there is none."""
+    """Return the layout with as many columns as the first row has; otherwise the first one."""
     return next((one for one in layouts if rows and len(one.columns) == len(rows[0])), layouts[0])
 
 
