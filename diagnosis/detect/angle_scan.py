@@ -17,6 +17,8 @@ from system.inputs.units import TURN
 
 SIGMA_OF_MEDIAN = 1.4826  # of a normal distribution, over its median deviation
 SETTLING = 100  # samples of drawn noise discarded
+FEWEST_FLIPPED = 12  # cycles: fewer have too few flips for a p of 0.01 among many windows
+USUAL = 0.95  # of the draws: the level of a trace's windows
 
 
 @dataclass(frozen=True)
@@ -37,53 +39,67 @@ def scan_angles(
 ) -> AngleWindow | None:
     """The window of shaft angle of greatest significance among all traces, or None above the threshold of p.
 
-    Traces have equal steps of angle over one turn. p counts all windows and all traces.
+    Traces have equal steps of angle over one turn. p is that of the greatest of all windows and all traces in drawn
+    noise (Westfall and Young 1993), each trace's windows over the level that its noise exceeds in one of twenty draws.
     """
     found = [_scan(trace, limits, seed + number) for number, trace in enumerate(traces)]
     if not found:
         return None
-    start, end, p_value = min(found, key=lambda window: window[2])
-    p_value = min(1.0, p_value * len(found))
+    best = max(found, key=lambda one: one.greatest)
+    chance = np.max([one.chance for one in found], axis=0)
+    p_value = float((1 + np.count_nonzero(chance >= best.greatest)) / (limits.draws + 1))
     if p_value > limits.p_value:
         return None
     margin = limits.windows[0]
-    width = (end - start) % TURN
-    within = tuple(event.text for event in events if (event.angle - start + margin) % TURN <= width + 2 * margin)
-    return AngleWindow(start, end, p_value, within)
+    width = (best.end - best.start) % TURN
+    within = tuple(event.text for event in events if (event.angle - best.start + margin) % TURN <= width + 2 * margin)
+    return AngleWindow(best.start, best.end, p_value, within)
 
 
-def _scan(trace: TraceMisfit, limits: LocateLimits, seed: int) -> tuple[float, float, float]:
-    """Start, end and p of the window of one trace with the most significant mean.
+@dataclass(frozen=True)
+class _Scanned:
+    """The most significant window of a trace, rad, its statistic, and the greatest one of each draw (draws,)."""
 
-    Means over all windows (2 to 60 degrees, each sqrt 2 wider than the last) over their own sigma; p by the
-    greatest of drawn noise (Westfall and Young 1993).
-    """
+    start: float
+    end: float
+    greatest: float
+    chance: Array
+
+
+def _scan(trace: TraceMisfit, limits: LocateLimits, seed: int) -> _Scanned:
+    """The window of one trace with the most significant mean: 2 to 60 degrees, each sqrt 2 wider than the last."""
     steps = len(trace.residual)
-    residual = _without_nuisances(trace, trace.residual[:, None] / trace.sigma[:, None])[:, 0]
+    residual = _without_nuisances(trace, trace.residual[:, None] / trace.sigma[:, None])
     widths = _widths(steps, limits)
-    noise = _noise(trace, residual, limits, seed)
-    drawn = np.stack([_window_sums(noise, width) for width in widths])
-    spread = np.sqrt((drawn**2).mean(axis=2, keepdims=True))
-    observed = np.stack([_window_sums(residual[:, None], width) for width in widths]) / spread
-    chance = np.abs(drawn / spread).max(axis=(0, 1))
-    which, first = np.unravel_index(int(np.abs(observed).argmax()), observed.shape[:2])
-    p_value = (1 + np.count_nonzero(chance >= np.abs(observed).max())) / (limits.draws + 1)
-    start = float(trace.block.angle[first])
-    step = TURN / steps
-    return start, (start + (int(widths[which]) - 1) * step) % TURN, float(p_value)
+    noise, cycles = _noise(trace, residual[:, 0], limits, seed)
+    spread = np.stack([np.sqrt((_window_sums(cycles, width) ** 2).mean(axis=1, keepdims=True)) for width in widths])
+    chance = np.max(
+        [np.abs(_window_sums(noise, w) / own).max(axis=0) for w, own in zip(widths, spread, strict=True)], 0
+    )
+    observed = np.abs(np.stack([_window_sums(residual, width) for width in widths]) / spread)[..., 0]
+    which, first = np.unravel_index(int(observed.argmax()), observed.shape)
+    level, start = float(np.quantile(chance, USUAL)), float(trace.block.angle[first])
+    end = (start + (int(widths[which]) - 1) * TURN / steps) % TURN
+    return _Scanned(start, end, float(observed.max()) / level, chance / level)
 
 
-def _noise(trace: TraceMisfit, residual: Array, limits: LocateLimits, seed: int) -> Array:
-    """Drawn noise (K, draws), whitened, without nuisances: sign flips of the cycles, or noise like the trace's."""
+def _noise(trace: TraceMisfit, residual: Array, limits: LocateLimits, seed: int) -> tuple[Array, Array]:
+    """Drawn means (K, draws), whitened, without nuisances, and the columns (K, n) whose windows give their spread.
+
+    Of enough cycles: their sign flips, means included, so that the test is exact for noise of even sign; a window's
+    spread about zero is then that of every draw. Else noise like the trace's, and its draws themselves.
+    """
     random = np.random.default_rng(seed)
     factor = trace.block.covariance_factor
-    if factor is not None:
-        signs = random.choice([-1.0, 1.0], size=(factor.shape[1], limits.draws))
-        return _without_nuisances(trace, factor @ signs / trace.sigma[:, None])
+    if factor is not None and factor.shape[1] >= FEWEST_FLIPPED:
+        count = factor.shape[1]
+        deviations = _without_nuisances(trace, factor / trace.sigma[:, None]) * np.sqrt(count * (count - 1.0))
+        cycles = residual[:, None] + deviations
+        return cycles @ random.choice([-1.0, 1.0], size=(count, limits.draws)) / count, cycles
     memory, scale = _memory(residual, limits)
     fresh = random.standard_normal((len(residual) + SETTLING, limits.draws)) * np.sqrt(1.0 - memory**2)
-    drawn = lfilter([1.0], [1.0, -memory], fresh, axis=0)[SETTLING:]
-    return _without_nuisances(trace, scale * drawn)
+    drawn = _without_nuisances(trace, scale * lfilter([1.0], [1.0, -memory], fresh, axis=0)[SETTLING:])
+    return drawn, drawn
 
 
 def _memory(residual: Array, limits: LocateLimits) -> tuple[float, float]:

@@ -52,6 +52,18 @@ def test_noise_with_memory_stands_out_nowhere() -> None:
     assert sum(_scan(_trace(0.0, seed)) is not None for seed in range(30)) <= 3
 
 
+@pytest.mark.parametrize("cycles", [3, 8, 20, 100])
+def test_noise_of_few_or_many_cycles_stands_out_nowhere(cycles: int) -> None:
+    assert sum(_scan(_trace(0.0, seed, cycles, memory)) is not None for seed in range(10) for memory in (0.0, 0.6)) <= 2
+
+
+def test_a_bump_is_found_among_many_traces() -> None:
+    """As many traces as a map has points do not exhaust the draws."""
+    found = _scan(*(_trace(6.0 if number == 9 else 0.0, number, 40) for number in range(16)))
+    assert found is not None
+    assert abs(degrees(found.start) - 180.0) <= 4.0
+
+
 def test_a_trace_that_scatters_all_over_stands_out_nowhere() -> None:
     """Noise three times as strong as stated is no window: only what stands out of the rest of the turn is."""
     assert sum(_scan(_trace(0.0, seed, scale=3.0)) is not None for seed in range(10)) <= 2
