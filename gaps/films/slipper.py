@@ -11,6 +11,7 @@ Boundaries: pocket, case, and groove_1, groove_2, .. between lands (`gaps.shapes
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -152,12 +153,24 @@ def supply(shape: PocketOrifice, viscosity: float, density: float) -> Callable[[
     """
     require_positive("slipper orifice", diameter=shape.diameter, length=shape.length, viscosity=viscosity)
     if (table := shape.table) is not None:
-        return lambda drop: table.flow(drop, shape.diameter, viscosity, density)
+        return partial(table.flow, diameter=shape.diameter, viscosity=viscosity, density=density)
     conductance = hagen_poiseuille_conductance(shape.diameter, shape.length, viscosity)
     loss = 0.0
     if shape.flow_coefficient is not None:
         loss = 0.5 * density / (shape.flow_coefficient * 0.25 * np.pi * shape.diameter**2) ** 2
-    return lambda drop: orifice_and_capillary(drop, conductance, loss)
+    return partial(orifice_and_capillary, conductance=conductance, loss=loss)
+
+
+@dataclass(frozen=True)
+class _Fed:
+    """Inflow of a pocket (m3/s) by its pressure (Pa), and its slope: from a chamber (Pa) through its orifice."""
+
+    chamber: float
+    through: Callable[[float], Tangent]
+
+    def __call__(self, pressure: float) -> tuple[float, float]:
+        flow, slope = self.through(self.chamber - pressure)
+        return float(flow), -float(slope)
 
 
 def retainer_force(retainer: Retainer, position: Array) -> Outer:
@@ -329,13 +342,7 @@ class SlipperFilm:
         return self.drive.shaft_speed * time
 
     def _boundary(self, time: float) -> dict[str, Boundary]:
-        chamber = self.chamber_pressure(time)
-
-        def feed(pressure: float) -> tuple[float, float]:
-            flow, slope = self._supply(chamber - pressure)
-            return float(flow), -float(slope)
-
-        lands = self.shape.lands
+        lands, feed = self.shape.lands, _Fed(self.chamber_pressure(time), self._supply)
         still = {name: Pocket(no_feed) for name in lands.closed}
         return still | {"pocket": Pocket(feed)} | dict.fromkeys(lands.open, Held(self.drive.case_pressure))
 

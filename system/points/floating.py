@@ -8,7 +8,7 @@ effects of [physics] (`film_effects`); its other effects act by their laws, at t
 """
 
 from collections.abc import Sequence
-from contextlib import nullcontext
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
 from time import perf_counter
 
@@ -41,15 +41,15 @@ from system.points.floating_kinds import (
     RoundDrives,
     by_chamber,
     chamber_problems,
-    driven_by,
     drives_of,
     gap_revolutions,
     group_of,
+    started,
 )
 from system.points.floating_progress import GAP_SHARES, SHARES_BESIDE, WholeRun
 from system.points.floating_solved import Round, Solved
+from system.points.gap_process import GapsBeside, gaps_beside
 from system.points.lumped import point_and_effects
-from system.points.piston_process import PistonBeside, piston_beside
 from system.pump.assembly import PumpPoint, met_point, put_together
 from system.pump.chamber.port_coupling import PortedCycle, ported_cycle
 from system.pump.chamber.problem import pressure_span
@@ -119,7 +119,7 @@ def floating_point(
     report: Report = silent,
     solved: Solved | None = None,
 ) -> FloatingPoint:
-    """One periodic operating point with the three gaps floating; side by side: the pistons in a second process.
+    """One periodic operating point with the three gaps floating; side by side: each gap in a process.
 
     near: a point of the same pump, whose motion, temperatures, spins and chambers this one starts from. solved: is
     filled with rounds and gaps as they are solved, and keeps them where a later one fails. Raises NotConverged where
@@ -136,8 +136,7 @@ def floating_point(
         gaps = tuple(_begun(kind.gaps) for kind in near.kinds)
         asked = _driven_as(asked, near)
     whole = WholeRun(report, ROUND_LIMIT, SHARES_BESIDE if side_by_side else GAP_SHARES)
-    pistons = [None] * len(group.parts) if gaps is None else [own.piston for own in gaps]
-    with piston_beside(group.parts, pistons) if side_by_side else nullcontext() as beside:
+    with _beside(group, gaps) if side_by_side else nullcontext() as beside:
         while not rounds or not (rounds[-1].settled and _agree(rounds[-1])):
             if len(rounds) == ROUND_LIMIT:
                 raise _not_settled(rounds[-1])
@@ -160,6 +159,14 @@ def _beginning(pump: PumpDescription, point: OperatingPoint, options: FloatingOp
     pressures = tuple(one.pressure for one in plain.chambers)
     at = rotor(described, at_the_ports(plain.point, group.by_chamber))
     return group, RoundDrives(at, angle, pressures, still, (None,) * len(group.parts), options)
+
+
+def _beside(group: Group, gaps: tuple[FloatingGaps, ...] | None) -> AbstractContextManager[GapsBeside]:
+    """Processes for pistons and slippers, which continue from given gaps."""
+    if gaps is None:
+        nothing = [None] * len(group.parts)
+        return gaps_beside(group.parts, nothing, nothing)
+    return gaps_beside(group.parts, [own.piston for own in gaps], [own.slipper for own in gaps])
 
 
 def _begun(gaps: FloatingGaps) -> FloatingGaps:
@@ -204,14 +211,14 @@ def _round(
     group: Group,
     point: OperatingPoint,
     before: tuple[FloatingGaps, ...] | None,
-    beside: PistonBeside | None,
+    beside: GapsBeside | None,
     report: Report,
     solved: Solved,
 ) -> _Found:
     """The gaps at the pressure and friction of the round before, then the chambers with these gaps."""
     began, pump, pistons = perf_counter(), asked.rotor.pump, asked.rotor.pump.pump.pistons
     if beside is not None:
-        beside.start(driven_by(asked, group))
+        started(beside, asked, group)
     driven = drives_of(asked, group)
     gaps = gap_revolutions(asked, group, driven, before, beside, report, solved)
     problems = chamber_problems(asked, group, point, piston_motion(pump, point), gaps)

@@ -27,7 +27,7 @@ from system.points.film_effects import floating_effects
 from system.points.floating_exchange import FloatingGaps, growth, leak_table
 from system.points.floating_gaps import FloatingOptions, block_revolution, piston_revolution, slipper_revolution
 from system.points.floating_solved import GapsOfKind, Solved
-from system.points.piston_process import Driven, PistonBeside
+from system.points.gap_process import Driven, GapsBeside
 from system.pump.chamber.problem import ChamberProblem
 from system.pump.chamber_kinds import Kinds, kinds
 from system.pump.lumped import PistonMotion
@@ -91,9 +91,15 @@ class RoundDrives:
     options: FloatingOptions
 
 
-def driven_by(asked: RoundDrives, group: Group) -> tuple[Driven, ...]:
+def started(beside: GapsBeside, asked: RoundDrives, group: Group) -> None:
+    """Begin a round of pistons and slippers in their processes."""
+    beside.pistons.start(_driven_by(asked, group, group.physics.piston))
+    beside.slippers.start(_driven_by(asked, group, group.physics.slipper))
+
+
+def _driven_by(asked: RoundDrives, group: Group, physics: Physics) -> tuple[Driven, ...]:
     """Drives of piston and slipper of each kind."""
-    pressure, options = np.array(asked.pressure), replace(asked.options, physics=group.physics.piston)
+    pressure, options = np.array(asked.pressure), replace(asked.options, physics=physics)
     return tuple(
         Driven(rotor, asked.shaft_angle, pressure[list(group.kinds.chambers(kind))].mean(axis=0), rubbing, options)
         for kind, (rotor, rubbing) in enumerate(zip(group.rotors(asked), asked.rubbing, strict=True))
@@ -104,7 +110,7 @@ def drives_of(asked: RoundDrives, group: Group) -> tuple[Drives, ...]:
     """The drives of each kind's gaps; the block's is one for all."""
     found = [
         drives(one.rotor, parts, one.shaft_angle, one.pressure, one.rubbing)
-        for one, parts in zip(driven_by(asked, group), group.parts, strict=True)
+        for one, parts in zip(_driven_by(asked, group, group.physics.piston), group.parts, strict=True)
     ]
     if group.kinds.alike:
         return tuple(found)
@@ -118,13 +124,14 @@ def gap_revolutions(
     group: Group,
     driven: Sequence[Drives],
     before: Sequence[FloatingGaps] | None,
-    beside: PistonBeside | None,
+    beside: GapsBeside | None,
     report: Report,
     solved: Solved,
 ) -> tuple[FloatingGaps, ...]:
-    """The gaps of each kind over the revolution, continued from those before; pistons in their own process, if begun.
+    """The gaps of each kind over the revolution, continued from those before.
 
-    Each is kept in `solved` as soon as it is found.
+    Pistons and slippers are those of their processes, if these are `started`. Each gap is kept in `solved` as soon as
+    it is found.
     """
     options = [
         replace(asked.options, physics=own)
@@ -139,16 +146,19 @@ def gap_revolutions(
             for of, last in each
         )
         pistons = solved.keep(Gap.PISTON, kinds, options[0], turning)
-    sliding = (
-        slipper_revolution(of.rotor, of.parts, of.drives.slipper, options[1], last.slipper if last else None, report)
-        for of, last in each
-    )
-    slippers = solved.keep(Gap.SLIPPER, kinds, options[1], sliding)
+        sliding = (
+            slipper_revolution(
+                of.rotor, of.parts, of.drives.slipper, options[1], last.slipper if last else None, report
+            )
+            for of, last in each
+        )
+        slippers = solved.keep(Gap.SLIPPER, kinds, options[1], sliding)
     block_before = None if before is None else before[0].block
     block = block_revolution(asked.rotor, group.parts[0], driven[0].block, options[2], block_before, report)
     solved.keep(Gap.VALVE_PLATE, kinds, options[2], [block])
     if beside is not None:
-        pistons = solved.keep(Gap.PISTON, kinds, options[0], beside.fetch(report))
+        slippers = solved.keep(Gap.SLIPPER, kinds, options[1], beside.slippers.fetch(report))
+        pistons = solved.keep(Gap.PISTON, kinds, options[0], beside.pistons.fetch(report))
     return tuple(
         FloatingGaps(piston, slipper, block, of.chambers[0])
         for piston, slipper, of in zip(pistons, slippers, kinds, strict=True)

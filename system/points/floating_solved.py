@@ -20,7 +20,7 @@ class Round:
     """One round of gaps and chamber.
 
     Changes by the round (as the tolerances count them), whether its turns close and agree with their temperatures,
-    films solved, time s; time of its gaps on each leg, s, with that of pistons in their own process.
+    films solved, time s; time of its gaps on each leg, s, the sum of all processes.
     """
 
     pressure_change: float

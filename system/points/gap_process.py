@@ -1,7 +1,6 @@
-"""The piston's revolutions in their own process, parallel to slipper and block.
+"""The revolutions of pistons, or of slippers, in a process of their own, parallel to the block's.
 
-The piston takes about as long as the other two together. Its process keeps the last revolution's films, so that
-only drives and reports are exchanged.
+A process keeps the last revolutions' films, so that only drives and reports are exchanged.
 """
 
 import multiprocessing
@@ -10,18 +9,21 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
+from typing import Any, Literal
 
-from gaps.films.reports import PistonReport
 from gaps.revolution.march import GapRevolution
 from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
+from system.description.gap import Gap
 from system.films.drives import Rubbing, drives
 from system.films.parts import FloatingParts
 from system.films.rotor import Rotor
-from system.points.floating_gaps import FloatingOptions, piston_revolution
+from system.points.floating_gaps import FloatingOptions, piston_revolution, slipper_revolution
 from system.work.progress import Report
 
-Found = GapRevolution[PistonReport]
+Found = GapRevolution[Any]
+OwnGap = Literal[Gap.PISTON, Gap.SLIPPER]
+"""The gaps that each chamber has."""
 REPORTS_A_TURN = 12
 
 
@@ -46,11 +48,11 @@ class _Progress:
     what: str
 
 
-class PistonBeside:
-    """A process that solves pistons, one of each kind: start them, continue, fetch the results."""
+class GapBeside:
+    """A process that solves a gap, once for each kind of chambers: start it, continue, fetch the results."""
 
-    def __init__(self, connection: Connection) -> None:
-        self._connection = connection
+    def __init__(self, gap: OwnGap, connection: Connection) -> None:
+        self._gap, self._connection = gap, connection
 
     def start(self, driven: tuple[Driven, ...]) -> None:
         """Begin a round, from the end of the one before."""
@@ -59,15 +61,15 @@ class PistonBeside:
     def fetch(self, report: Report) -> tuple[Found, ...]:
         """The revolutions of the round begun, without the start data of the next; reports progress while it waits.
 
-        Raises as `piston_revolution`, NotConverged where the process has died.
+        Raises as `piston_revolution` and `slipper_revolution`, NotConverged where the process has died.
         """
         while True:
             try:
                 received = self._connection.recv()
             except (EOFError, ConnectionResetError):
                 raise NotConverged(
-                    "the piston's process has died; try one process alone, or in a script of your own call it "
-                    "under `if __name__ == '__main__':`"
+                    f"the process of the {self._gap.value} has died; try one process alone, or in a script of your "
+                    "own call it under `if __name__ == '__main__':`"
                 ) from None
             if isinstance(received, _Progress):
                 report(received.done, received.total, received.what)
@@ -77,26 +79,46 @@ class PistonBeside:
                 return received
 
 
-@contextmanager
-def piston_beside(parts: tuple[FloatingParts, ...], before: Sequence[Found | None]) -> Iterator[PistonBeside]:
-    """A process for the pistons as long as the context lasts; Ctrl-C is for this process alone, which ends it.
+@dataclass(frozen=True)
+class GapsBeside:
+    """The processes of pistons and slippers."""
 
-    before: the revolution from which each piston's first one continues, if any.
+    pistons: GapBeside
+    slippers: GapBeside
+
+
+@contextmanager
+def gaps_beside(
+    parts: tuple[FloatingParts, ...], pistons: Sequence[Found | None], slippers: Sequence[Found | None]
+) -> Iterator[GapsBeside]:
+    """Processes for pistons and slippers, as `gap_beside`; their revolutions from which the first ones continue."""
+    with gap_beside(Gap.PISTON, parts, pistons) as one, gap_beside(Gap.SLIPPER, parts, slippers) as other:
+        yield GapsBeside(one, other)
+
+
+@contextmanager
+def gap_beside(gap: OwnGap, parts: tuple[FloatingParts, ...], before: Sequence[Found | None]) -> Iterator[GapBeside]:
+    """A process for a gap as long as the context lasts; Ctrl-C is for this process alone, which ends it.
+
+    before: the revolution from which the first one of each kind of chambers continues, if any.
     """
-    ours, theirs = multiprocessing.get_context("spawn").Pipe()
-    process = multiprocessing.get_context("spawn").Process(target=_serve, args=(theirs, parts, before), daemon=True)
+    spawning = multiprocessing.get_context("spawn")
+    ours, theirs = spawning.Pipe()
+    process = spawning.Process(target=_serve, args=(theirs, gap, parts, before), daemon=True)
     process.start()
     theirs.close()
     try:
-        yield PistonBeside(ours)
+        yield GapBeside(gap, ours)
     finally:
         ours.close()
         process.terminate()
         process.join()
 
 
-def _serve(connection: Connection, parts: tuple[FloatingParts, ...], first: Sequence[Found | None]) -> None:
-    """Rounds of the pistons, one for each request, until the process ends."""
+def _serve(
+    connection: Connection, gap: OwnGap, parts: tuple[FloatingParts, ...], first: Sequence[Found | None]
+) -> None:
+    """Rounds of the gap, one for each request, until the process ends."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     before = [*first]
     while True:
@@ -105,7 +127,7 @@ def _serve(connection: Connection, parts: tuple[FloatingParts, ...], first: Sequ
         except EOFError:
             return
         try:
-            found = [_solve(*each, _progress_to(connection)) for each in zip(asked, parts, before, strict=True)]
+            found = [_solve(gap, *each, _progress_to(connection)) for each in zip(asked, parts, before, strict=True)]
         except Exception as reason:  # sent to the caller, which raises it
             connection.send(reason)
         else:
@@ -123,6 +145,8 @@ def _progress_to(connection: Connection) -> Report:
     return report
 
 
-def _solve(asked: Driven, parts: FloatingParts, before: Found | None, report: Report) -> Found:
+def _solve(gap: OwnGap, asked: Driven, parts: FloatingParts, before: Found | None, report: Report) -> Found:
     driven = drives(asked.rotor, parts, asked.shaft_angle, asked.pressure, asked.rubbing)
-    return piston_revolution(asked.rotor, parts, driven.piston, asked.options, before, report)
+    if gap is Gap.PISTON:
+        return piston_revolution(asked.rotor, parts, driven.piston, asked.options, before, report)
+    return slipper_revolution(asked.rotor, parts, driven.slipper, asked.options, before, report)

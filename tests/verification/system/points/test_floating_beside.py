@@ -1,4 +1,4 @@
-"""The piston in a process of its own: the same revolution, and errors that come over."""
+"""Gaps in processes of their own: the same revolutions, and errors that come over."""
 
 from __future__ import annotations
 
@@ -18,8 +18,9 @@ from system import (
     operating_point,
     rotor,
 )
-from system.points.floating_gaps import piston_revolution
-from system.points.piston_process import Driven, piston_beside
+from system.description.gap import Gap
+from system.points.floating_gaps import piston_revolution, slipper_revolution
+from system.points.gap_process import Driven, gap_beside
 
 ROUGHLY = FloatingOptions(RIGID, steps=36, finer=0.25, accuracy=Accuracy(step=0.1, floor=1e-7, closed=0.5), keep=6)
 
@@ -34,18 +35,22 @@ def asked(options: FloatingOptions = ROUGHLY) -> Driven:
 
 
 @pytest.mark.long
-def test_a_process_of_its_own_finds_the_same_piston():
+@pytest.mark.parametrize("gap", [Gap.PISTON, Gap.SLIPPER])
+def test_a_process_of_its_own_finds_the_same_revolution(gap):
     here, told = asked(), []
     parts = floating_parts(here.rotor.pump)
     driven = drives(here.rotor, parts, here.shaft_angle, here.pressure, here.rubbing)
-    with piston_beside((parts,), [None]) as beside:
+    with gap_beside(gap, (parts,), [None]) as beside:
         beside.start((here,))
-        alone = piston_revolution(here.rotor, parts, driven.piston, ROUGHLY)
+        if gap is Gap.PISTON:
+            alone = piston_revolution(here.rotor, parts, driven.piston, ROUGHLY)
+        else:
+            alone = slipper_revolution(here.rotor, parts, driven.slipper, ROUGHLY)
         (found,) = beside.fetch(lambda done, total, what: told.append(what))
         assert np.array_equal(found.positions, alone.positions)
         assert found.closing.turns == alone.closing.turns
         assert list(found.turn.films) == list(alone.turn.films)
-        assert any(what.startswith("piston") for what in told)
+        assert any(what.startswith(gap.value) for what in told)
         # It goes on from where it ended.
         beside.start((here,))
         (again,) = beside.fetch(lambda *_: None)
