@@ -71,7 +71,8 @@ def scaled_places(recording: Recording) -> Array:
 def is_alone(point: int, score: Array, places: Array) -> bool:
     """True if none of the nearest points deviates by a third as much: a step of the map would move them all."""
     distance = np.sum((places - places[point]) ** 2, axis=1)
-    nearest = np.argsort(distance)[1 : NEIGHBOURS + 1]
+    distance[point] = -1.0  # first of all, also among readings at the same place
+    nearest = np.argsort(distance, kind="stable")[1 : NEIGHBOURS + 1]
     return bool(np.all(np.abs(score[nearest]) < abs(score[point]) / 3.0))
 
 

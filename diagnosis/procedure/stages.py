@@ -161,10 +161,11 @@ def _placed(
 ) -> tuple[Explanation, ...]:
     """All singles on one scale: refits replace their linear forms, the others are shifted.
 
-    Without a refit the distance to the best refitted hypothesis is that of the linear model: a linear model that
-    fits by impossible nuisances is ahead of no refit.
+    Without a refit, or where it failed, the distance to the best refitted hypothesis is that of the linear model: a
+    linear model that fits by impossible nuisances is ahead of no refit.
     """
-    fresh = {each.hypothesis.open_names: each for each in (null, *refitted)}
+    done = (each for each in refitted if each.posterior is not None)
+    fresh = {each.hypothesis.open_names: each for each in (null, *done)}
     linear = [each.log_evidence for each in screened if _key(each) in fresh and _key(each) is not None]
     moved = max(each.log_evidence for each in fresh.values()) - max(linear)
     return tuple(

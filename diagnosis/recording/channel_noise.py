@@ -106,7 +106,9 @@ def _calibration(form: ChannelForm, sigma: float, relative: float, readings: Arr
             return 0.0, _LOW_PRESSURE[accuracy] / math.sqrt(3.0)
         wide = dimension in (Dimension.VOLUME_FLOW, Dimension.PRESSURE)
         gain = (_FLOW_SHARES if wide else _SHARES)[accuracy] / math.sqrt(3.0)
-        return gain, 0.0 if name in INPUTS else ZERO_SHARE * gain * float(np.nanmax(np.abs(readings)))
+        if name in INPUTS:  # of a pressure the limit at its median: as an input it has no gain
+            return gain, gain * float(np.nanmedian(np.abs(readings))) if dimension is Dimension.PRESSURE else 0.0
+        return gain, ZERO_SHARE * gain * float(np.nanmax(np.abs(readings)))
     if name is ChannelName.DISPLACEMENT_RATIO:
         return 0.0, max(sigma, SETTING_SHARE)
     gain = 0.0 if dimension is Dimension.TEMPERATURE else max(relative, LEAST_GAIN)

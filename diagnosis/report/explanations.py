@@ -33,6 +33,23 @@ def explained_by(diagnosis: Diagnosis, *, other_form: bool = True) -> list[Expla
     return [*ranked[:1], *sorted(ranked[1:], key=lambda one: -one.probability)]
 
 
+def rivals(diagnosis: Diagnosis) -> tuple[list[Explanation], list[Explanation]]:
+    """Explanations that the finding does not name, the likeliest first: those that are possible, and the excluded."""
+    _, *others = explained_by(diagnosis, other_form=False)
+    least = diagnosis.thresholds.name.possible
+    others = [one for one in others if not _is_told(one.hypothesis, diagnosis)]
+    return [one for one in others if one.probability >= least], [one for one in others if one.probability < least]
+
+
+def _is_told(own: Hypothesis, diagnosis: Diagnosis) -> bool:
+    """True for an explanation that the finding names already, as one of those that are inseparable."""
+    if len(diagnosis.effects) != 1 or len(own.effects) != 1:
+        return False
+    (claim,) = diagnosis.effects
+    places = {claim.pair, *(gap for gap, _ in claim.elsewhere)}
+    return own.effects[0] in claim.equivalent or (own.effects[0] is claim.effect and own.places[0] in places)
+
+
 def explanation_words(own: Hypothesis) -> str:
     """An explanation in words, each effect with its own place: "churning and film thickness at the slippers"; of the
     null "no mismatch".

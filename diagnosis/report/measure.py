@@ -5,6 +5,7 @@ from __future__ import annotations
 from diagnosis.next_point.choose import NextPoint, RankedPoint
 from diagnosis.recording.units import channel_unit, reading
 from diagnosis.report.certainty import stated_probability
+from diagnosis.report.explanations import rivals
 from diagnosis.report.format import CHANNELS, channel_words, if_words, listed, pressure_text, setting_text
 from diagnosis.study.map_axes import axis_values
 from diagnosis.study.model import Study
@@ -16,6 +17,7 @@ NO_NEXT_POINT = "no next point can be proposed"
 """First words of the note that gives the reason."""
 NOTHING_MORE = "No further measurement is needed."
 NOTHING_ELSE = "No further measurement is needed: nothing else fits."
+NOTHING_AS_LIKELY = "No further measurement is needed: every other cause is far less likely."
 DIMENSIONS = "clearances, valve plate, ports"
 NO_POINT_TELLS = (
     "No further operating point would tell more: nothing else that could be fitted comes near. The pump's own "
@@ -46,7 +48,10 @@ def measure_words(diagnosis: Diagnosis) -> str:
         return f"More points{where} tell a law of the catalogue from a cause outside it."
     if diagnosis.status is VerdictStatus.INCOMPLETE:
         return "Read the points again that still differ most: nothing else that could be fitted explains them better."
-    return NOTHING_ELSE if stated_probability(diagnosis) >= diagnosis.thresholds.name.probability else NO_POINT_TELLS
+    if stated_probability(diagnosis) < diagnosis.thresholds.name.probability:
+        return NO_POINT_TELLS
+    possible, _ = rivals(diagnosis)
+    return NOTHING_AS_LIKELY if possible else NOTHING_ELSE
 
 
 def hidden_words(study: Study, examples: str) -> str:

@@ -7,11 +7,10 @@ from math import inf
 
 from diagnosis.detect.regions import MapRegion
 from diagnosis.detect.time_scan import TimeKind
-from diagnosis.explain.hypotheses import Hypothesis
 from diagnosis.explain.ranked import Explanation
 from diagnosis.recording.units import difference, difference_unit, reading
 from diagnosis.report.certainty import stated_probability
-from diagnosis.report.explanations import RIVALS, explained_by, explanation_words, named_apart
+from diagnosis.report.explanations import RIVALS, explained_by, explanation_words, named_apart, rivals
 from diagnosis.report.format import (
     CHANNELS,
     COMPONENTS,
@@ -125,25 +124,12 @@ def rivals_words(diagnosis: Diagnosis) -> str:
     """Explanations that are still possible and that are ruled out."""
     if diagnosis.status is VerdictStatus.SUSPICION or not diagnosis.effects:
         return ""
-    _, *others = explained_by(diagnosis, other_form=False)
-    least = diagnosis.thresholds.name.possible
-    others = [one for one in others if not _is_told(one.hypothesis, diagnosis)]
-    possible = [explanation_words(one.hypothesis) for one in others if one.probability >= least]
-    excluded = [explanation_words(one.hypothesis) for one in others if one.probability < least]
+    possible, excluded = ([explanation_words(one.hypothesis) for one in some] for some in rivals(diagnosis))
     more = len(possible) - RIVALS
     rest = [f"{_count(more)} less likely {'cause' if more == 1 else 'causes'}"] if more > 0 else []
     parts = [f"Still possible: {listed([*possible[:RIVALS], *rest])}." if possible else ""]
     parts += [f"Ruled out: {listed(excluded[:RIVALS])}." if excluded else ""]
     return " ".join(part for part in parts if part)
-
-
-def _is_told(own: Hypothesis, diagnosis: Diagnosis) -> bool:
-    """True for an explanation that the finding names already, as one of those that are inseparable."""
-    if len(diagnosis.effects) != 1 or len(own.effects) != 1:
-        return False
-    (claim,) = diagnosis.effects
-    places = {claim.pair, *(gap for gap, _ in claim.elsewhere)}
-    return own.effects[0] in claim.equivalent or (own.effects[0] is claim.effect and own.places[0] in places)
 
 
 def _count(number: int) -> str:

@@ -16,7 +16,8 @@ from system.effects.effect import Kind
 def doubted(explanations: Sequence[Explanation], share: float, rest: Collection[Kind]) -> tuple[Explanation, ...]:
     """The explanations in their order with probabilities P' = share P + (1 - share) P0.
 
-    P0: priors of the explanations of the kinds `rest`, normalised; 0 without any of these. Evidences are valid if one
+    P0: priors of the explanations of the kinds `rest`, normalised; without any of these 0, and the sum of all P' is
+    share: the rest is of causes that have no explanation here. Evidences are valid if one
     of the explanations is true; the residual contradicts that, and with the chance 1 - share only the prior is known
     (contamination of a posterior; Berger and Berliner 1986, doi:10.1214/aos/1176349933). share: of such findings, the
     right ones.

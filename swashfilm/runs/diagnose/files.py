@@ -85,7 +85,7 @@ def film_rows(comparison: FilmComparison) -> Iterator[Mapping[str, str]]:
 
 
 def with_stated(study: Study, rows: Iterable[Mapping[str, str]]) -> Iterator[Mapping[str, str]]:
-    """The rows of the traces, in their order, with the pressure of the pump as described, not fitted."""
+    """The rows of the traces with the pressure of the pump within its tolerances, fitted to the traces alone."""
     stated = np.concatenate([trace.block.mean - trace.residual for trace in study.traces])
     head = f"stated [{channel_unit(ChannelName.P_CHAMBER)}]"
     for row, pressure in zip(rows, stated, strict=True):

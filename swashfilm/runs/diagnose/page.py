@@ -70,8 +70,8 @@ MAP_CAPTION = (
     "White: agreement; red: more is measured; blue: less. Points of other case temperatures stand side by side."
 )
 TRACE_CAPTION = (
-    "Recorded chamber pressures that differ most, and measured minus simulated on one scale: for the pump as described"
-    "{fits}. All samples are in trace_residuals.csv."
+    "Recorded chamber pressures that differ most, and measured minus simulated on one scale: for the pump within "
+    "its tolerances, fitted to the traces alone{fits}. All samples are in trace_residuals.csv."
 )
 
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 Row = Mapping[str, str]
 FITS = {
-    "stated": ("#a274ad", "pump as described"),
+    "stated": ("#a274ad", "tolerances fitted to the traces alone"),
     "before": ("#b55a00", "fit without the finding"),
     "after": ("#3c7a8c", "fit with it"),
 }

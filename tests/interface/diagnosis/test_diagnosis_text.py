@@ -20,8 +20,8 @@ from diagnosis.report.certainty import certainty
 from diagnosis.report.evidence import evidence
 from diagnosis.report.format import if_words
 from diagnosis.report.json_file import diagnosis_record, read_diagnosis
-from diagnosis.report.measure import NOTHING_ELSE, measure_words, next_point_text
-from diagnosis.report.text import headline, paragraphs
+from diagnosis.report.measure import NOTHING_AS_LIKELY, NOTHING_ELSE, measure_words, next_point_text
+from diagnosis.report.text import headline, paragraphs, rivals_words
 from diagnosis.verdict.diagnosis import ClaimedEffect, Estimate, VerdictStatus
 from diagnosis.verdict.row_numbers import by_table_rows
 from system import ChannelName, Component, Dimension, EffectId, Gap, InputFaults, Kind
@@ -73,7 +73,7 @@ def test_the_next_point_is_told_with_what_it_promises(named: Diagnosis) -> None:
     metered = replace(found, meter=drain)
     assert next_point_text(metered).startswith("Add to the bench: a metered drain of the slippers alone. Record 1000")
     decided = replace(named, next_point=replace(poor, before=8.0))
-    assert measure_words(decided) == NOTHING_ELSE
+    assert measure_words(decided) == NOTHING_AS_LIKELY
     record = diagnosis_record(replace(named, next_point=poor))["next_test"]
     assert (record["settles"], record["chance"], record["readings"]) == (False, 0.1, 3)
     assert record["log_odds"] == {"now": pytest.approx(np.log(15.5)), "predicted": 4.3}
@@ -97,8 +97,11 @@ def test_no_explanation_of_a_next_point_is_without_a_name(between: tuple[str, st
 
 def test_why_no_point_is_asked_for_is_told(named: Diagnosis) -> None:
     """That none can be proposed, that nothing else fits, or what would make a finding surer."""
+    likeliest, *rest = named.hypotheses
+    sole = replace(named, hypotheses=(likeliest, *(replace(one, probability=1e-3) for one in rest)), next_point=None)
+    assert (measure_words(sole), "Still possible" in rivals_words(sole)) == (NOTHING_ELSE, False)
     alone = replace(named, next_point=None)
-    assert measure_words(alone) == NOTHING_ELSE
+    assert (measure_words(alone), "Still possible" in rivals_words(alone)) == (NOTHING_AS_LIKELY, True)
     failed = replace(alone, notes=("no next point can be proposed: fit of the leak: it stalled",))
     assert measure_words(failed) == "No next point can be proposed: fit of the leak: it stalled."
     assert measure_words(agreeing(named)) == "No further measurement is needed."
@@ -240,7 +243,7 @@ def test_angles_and_times_are_part_of_where(named: Diagnosis) -> None:
     assert diagnosis_record(drift)["where"]["time"] == {"kind": "drift", "channel": "Q_case", "point": None}
     assert "shaft angle" not in statement(agreeing(found))
     lacking = DataNote(NoteKind.REMOVED, None, (1,), "an input of these points is missing")
-    recording = SimpleNamespace(notes=(lacking,), steady=SimpleNamespace(values=np.zeros((60, 0))))
+    recording = SimpleNamespace(notes=(lacking,), steady=SimpleNamespace(values=np.zeros((60, 0)), rows=None))
     assert diagnosis_record(by_table_rows(found, recording))["where"]["time"]["point"] == 41
 
 

@@ -101,6 +101,8 @@ def test_calibration_class_lag_and_quantum(tmp_path):
     assert flow.zero_sigma == pytest.approx(0.1 / 60e3)
     assert flow.quantum == pytest.approx(0.01 / 60e3)
     assert pressure.gain_sigma == pytest.approx(0.015 / math.sqrt(3))  # ISO 4409 class B: 1.5 % above 2 bar
+    median = np.median(np.abs(recording.steady.column(ChannelName.P_OUT)))
+    assert pressure.zero_sigma == pytest.approx(0.015 / math.sqrt(3) * median)
 
 
 def test_repeatability_from_repeats_else_a_fault(tmp_path):

@@ -11,7 +11,7 @@ import pytest
 from toy_maps import LIMITS, SIGMA, ToySimulator, toy_observations, toy_recording
 
 from diagnosis import Diagnosis, Explanation, NoteKind, Recording, Study, diagnose_study, hidden_effects
-from diagnosis.checks.outliers import scaled_places
+from diagnosis.checks.outliers import is_alone, scaled_places
 from diagnosis.detect.mismatch import confirmed, detect
 from diagnosis.explain import combinations
 from diagnosis.explain.held_out import beyond_chance, has_veto, held_out, regions
@@ -22,6 +22,7 @@ from diagnosis.explain.refit import refit, within_tolerance
 from diagnosis.explain.scaling import scaling
 from diagnosis.explain.screen import joint_evidence, screen
 from diagnosis.procedure.recorded import diagnose_recording
+from diagnosis.procedure.stages import _placed
 from diagnosis.recording.model import DataNote
 from diagnosis.report.hidden import largest_size
 from diagnosis.study.map_axes import AXES, scaled_axes
@@ -410,6 +411,26 @@ def test_what_the_likeliest_pair_is_made_of_is_refitted_alone() -> None:
     fitted = {each.hypothesis.effects[0] for each in alone if each.posterior is not None}
     assert {claim.effect for claim in found.effects} == {EffectId.CHURNING, EffectId.Q_CASE_OFFSET}
     assert {EffectId.CHURNING, EffectId.Q_CASE_OFFSET} <= fitted
+
+
+def test_a_failed_refit_is_no_scale_for_the_others() -> None:
+    """Hypotheses without a refit keep the distance of the linear model to the best one that has a refit."""
+    study = _study(1, laws=((CHURNING, 0.2),))
+    empty, *listed = [each for each in hypotheses(study, LIMITS) if each.component is None][:4]
+    null, *linear = [
+        Explanation(own, evidence, True, None, 0.0, 0.0, None)
+        for own, evidence in zip((empty, *listed), (0.0, 100.0, 95.0, 90.0), strict=True)
+    ]
+    fitted = replace(linear[0], log_evidence=60.0, posterior=study.base)
+    for failed in ((), (linear[1],)):
+        placed = _placed(study, (null, *linear), null, (fitted, *failed))
+        assert [each.log_evidence for each in placed] == [0.0, 60.0, 55.0, 50.0]
+
+
+def test_a_slip_is_alone_in_each_reading_of_a_point() -> None:
+    places = np.repeat(np.linspace(-1.0, 1.0, 20)[:, None], 2, axis=0)
+    for slip in (20, 21):
+        assert is_alone(slip, 100.0 * (np.arange(40) == slip) + 1.0, places)
 
 
 def test_pairs_begin_at_every_single_near_the_best(monkeypatch: pytest.MonkeyPatch) -> None:
