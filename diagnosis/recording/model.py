@@ -74,7 +74,8 @@ class SteadyTable:
     errors: (N, len(ChannelName)), one sigma in SI of points that are means over a moving series; nan where a point has
     the repeatability of its channel. directions: (N, len(ChannelName), K), the errors of two such points have the
     scalar product of theirs as correlation; None where all points are independent. warming: (N,), K/s by which T_case
-    rises at points of a moving series; None at rest.
+    rises at points of a moving series; None at rest. rows: (N,), places from 0 that the points have in the table as
+    read, where that is in another order; None where it is not.
     """
 
     values: Array
@@ -83,12 +84,14 @@ class SteadyTable:
     errors: Array
     directions: Array | None = None
     warming: Array | None = None
+    rows: NDArray[np.int64] | None = None
 
     def at(self, rows: NDArray[np.int64] | NDArray[np.bool_] | slice) -> SteadyTable:
         """The table of some of its points."""
         directions, warming = (None if of is None else of[rows] for of in (self.directions, self.warming))
+        places = None if self.rows is None else self.rows[rows]
         return SteadyTable(
-            self.values[rows], self.repeats[rows], self.hours[rows], self.errors[rows], directions, warming
+            self.values[rows], self.repeats[rows], self.hours[rows], self.errors[rows], directions, warming, places
         )
 
     def correlation(self, name: ChannelName) -> Array | None:

@@ -182,7 +182,8 @@ def _steady_points(
     if form.repeats and marks is None:
         return None
     numbers = np.arange(count, dtype=np.int64) if marks is None else set_points(marks)
-    hours = np.full(count, np.nan) if seconds is None else (seconds - seconds[0]) / 3600.0
+    stamps = np.full(count, np.nan) if seconds is None else seconds
+    hours = (stamps - np.min(stamps, initial=np.inf, where=np.isfinite(stamps))) / 3600.0
     return _Points(readings, numbers, hours, None, columns.values)
 
 

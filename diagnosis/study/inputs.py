@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from diagnosis.recording.model import Circuit, DataNote, NoteKind, Recording
 from diagnosis.recording.units import channel_unit, difference, difference_unit, reading
@@ -62,12 +63,25 @@ def complete(recording: Recording) -> Recording:
     gone = tuple(int(point) for point in np.flatnonzero(missing))
     lost = " (with a trace)" if any(missing[trace.point] for trace in recording.traces) else ""
     note = DataNote(NoteKind.REMOVED, None, gone, f"an input of these points is missing{lost}")
-    place = np.cumsum(~missing) - 1
-    steady = recording.steady.at(~missing)
-    traces = tuple(
-        replace(trace, point=int(place[trace.point])) for trace in recording.traces if not missing[trace.point]
-    )
-    return replace(recording, steady=steady, traces=traces, notes=(*recording.notes, note))
+    return replace(_of_points(recording, np.flatnonzero(~missing)), notes=(*recording.notes, note))
+
+
+def in_time(recording: Recording) -> Recording:
+    """The recording with its points in the order of their times, where all have one; a note if their rows are not."""
+    hours = recording.steady.hours
+    if not np.isfinite(hours).all() or np.all(np.diff(hours) >= 0.0):
+        return recording
+    order = np.argsort(hours, kind="stable")
+    note = DataNote(NoteKind.NOTED, None, (), "rows are not in the order of their times: points are put in that order")
+    found = _of_points(recording, order)
+    return replace(found, steady=replace(found.steady, rows=order), notes=(*recording.notes, note))
+
+
+def _of_points(recording: Recording, points: NDArray[np.int64]) -> Recording:
+    """The recording of some of its points, in their order here, with their traces."""
+    place = {int(point): at for at, point in enumerate(points)}
+    traces = tuple(replace(one, point=place[one.point]) for one in recording.traces if one.point in place)
+    return replace(recording, steady=recording.steady.at(points), traces=traces)
 
 
 def assumed_inputs(recording: Recording, pump: PumpDescription) -> tuple[AssumedInput, ...]:

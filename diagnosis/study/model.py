@@ -202,7 +202,8 @@ def concerned(effect: EffectId, parameters: Iterable[Parameter]) -> tuple[str, .
 def _of_parameters(entry: Entry, base: Posterior, factor: float) -> Iterator[Candidate]:
     """Columns of parameters of the model, for sizes far beyond their stated tolerance."""
     for name in concerned(entry.id, base.parameters):
-        yield Candidate(entry, None, 0, name, base.slopes[:, base.index(name)], factor, Sign.EITHER)
+        at = base.index(name)
+        yield Candidate(entry, None, 0, name, base.slopes[:, at], factor, _sign(base.parameters[at]))
 
 
 def _of_extensions(entry: Entry, simulator: PumpSimulator, base: Posterior, place: Array) -> Iterator[Candidate]:

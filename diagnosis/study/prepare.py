@@ -12,7 +12,7 @@ from diagnosis.recording.series.quasi_steady import THERMOMETER
 from diagnosis.study.drift_course import course_departures, drift_courses, drift_parameters
 from diagnosis.study.felt import felt
 from diagnosis.study.films.noise import BALANCED_NAMES, table_noise
-from diagnosis.study.inputs import assumed_parameters, bench_points, complete, measured
+from diagnosis.study.inputs import assumed_parameters, bench_points, complete, in_time, measured
 from diagnosis.study.map_axes import scaled_axes, smooth_shapes
 from diagnosis.study.model import Study, study_of
 from diagnosis.study.noise_correlation import noise_correlation, noise_excess
@@ -27,7 +27,7 @@ from system.bench.components import LEAKAGE
 from system.bench.departures import departures
 from system.bench.outputs import METERED, SIMULATED, shear_torques
 from system.bench.parameters import base_parameters
-from system.bench.sensors import drift_parameter, lag_parameter, sensor_parameters, thermometer_parameter
+from system.bench.sensors import LAG_NAMES, drift_parameter, lag_parameter, sensor_parameters, thermometer_parameter
 from system.bench.simulator import LumpedBench
 from system.description.pump import PumpDescription
 from system.description.tolerances import Tolerances
@@ -63,15 +63,16 @@ def prepare(
     recording lacks are assumed, with notes in the study's recording. Raises InputError for a recording without
     a simulated output, NotConverged where a point cannot be simulated.
     """
-    usable = complete(recording)
+    usable = in_time(complete(recording))
     channels, inputs = measured(usable, METERED), measured(usable, INPUTS)
     if not channels:
         names = ", ".join(channel.value for channel in SIMULATED)
         raise InputError("recording", "none of the simulated outputs", f"at least one of {names}")
     points, taken = bench_points(usable, pump)
-    usable = replace(usable, notes=(*usable.notes, *taken, *_unused_notes(usable)))
+    meters = meter_parameters(usable, channels)
+    usable = replace(usable, notes=(*usable.notes, *taken, *_unused_notes(usable), *_lag_notes(usable, meters)))
     parameters = (
-        *uncertain_parameters(pump, tolerances, films), *meter_parameters(usable, channels),
+        *uncertain_parameters(pump, tolerances, films), *meters,
         *assumed_parameters(usable, pump), *trace_parameters(usable),
     )  # fmt: skip
     bench = LumpedBench(
@@ -136,6 +137,15 @@ def _unused_notes(recording: Recording) -> Iterator[DataNote]:
         if name not in METERED:
             text = f"{name.value} is recorded, but the simulation does not give it"
             yield DataNote(NoteKind.NOTED, name, (), text)
+
+
+def _lag_notes(recording: Recording, meters: tuple[Parameter, ...]) -> Iterator[DataNote]:
+    """A note on points of which no lag is reckoned, as no time has passed since the point before."""
+    at_once = np.flatnonzero(np.diff(recording.steady.hours) == 0.0)
+    for one in meters:
+        if one.name in LAG_NAMES and at_once.size:
+            text = f"{at_once.size} points have the time of the one before: no lag is reckoned of them"
+            yield DataNote(NoteKind.NOTED, ChannelName.named(one.name.removesuffix(".lag")), (), text)
 
 
 def _excess_notes(channels: tuple[ChannelName, ...], excess: Array, least: float) -> Iterator[DataNote]:

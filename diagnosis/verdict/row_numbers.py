@@ -14,7 +14,8 @@ from diagnosis.verdict.diagnosis import Diagnosis
 def table_rows(recording: Recording) -> NDArray[np.int64]:
     """The row, from 1, of each of the N points in the table (or windows of the series) that was read.
 
-    Rows without an input are skipped, by the recording's notes: `inputs.complete`.
+    Rows without an input are skipped, by the recording's notes: `inputs.complete`. Points may be in the order of their
+    times: `inputs.in_time`.
     """
     gone = {
         point
@@ -22,8 +23,9 @@ def table_rows(recording: Recording) -> NDArray[np.int64]:
         if note.kind is NoteKind.REMOVED and note.channel is None
         for point in note.points
     }
-    whole = np.arange(len(recording.steady.values) + len(gone))
-    return np.setdiff1d(whole, np.array(sorted(gone), dtype=np.int64)) + 1
+    whole, order = np.arange(len(recording.steady.values) + len(gone)), recording.steady.rows
+    found = np.setdiff1d(whole, np.array(sorted(gone), dtype=np.int64)) + 1
+    return found if order is None else found[order]
 
 
 def by_table_rows(found: Diagnosis, recording: Recording) -> Diagnosis:

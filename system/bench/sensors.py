@@ -26,6 +26,8 @@ TRACE_NAMES = frozenset({ENCODER_OFFSET, CHAMBER_GAIN, CHAMBER_ZERO, CHAMBER_LAG
 """Names of the parameters that change readings of traces, and no steady reading."""
 READING_NAMES = frozenset(f"{channel.value}.{what}" for channel in OUTPUTS for what in ("gain", "zero", "drift", "lag"))
 """Names of the parameters that change the readings, not the truth."""
+LAG_NAMES = frozenset(f"{channel.value}.lag" for channel in OUTPUTS)
+"""Names of the lags of meters, which no reading feels far below the time between two points."""
 THERMOMETER_LAG = f"{ChannelName.T_CASE.value}.lag"
 SENSOR_NAMES = frozenset(
     {*TRACE_NAMES, *READING_NAMES, THERMOMETER_LAG, *(f"{channel.value}.zero" for channel in INPUTS)}
@@ -164,10 +166,13 @@ def _progress(points: BenchPoints) -> Array:
 
 
 def _lagging(reading: Array, points: BenchPoints, lag: float) -> Array:
-    """Readings with a lag: the share exp(-t/lag) of the change from the point before is missing."""
-    sequence = np.argsort(points.order, kind="stable")
-    ordered, hours = reading[sequence], points.hours[sequence]
-    left = np.exp(-3600.0 * np.diff(hours) / lag)
+    """Readings with a lag: the share exp(-t/lag) of the change from the point before in time is missing.
+
+    None is missing of a point whose time is that of the one before, as of points to come, or is not known.
+    """
+    sequence = np.lexsort((points.order, points.hours))
+    ordered, past = reading[sequence], 3600.0 * np.diff(points.hours[sequence])
+    left = np.where(past > 0.0, np.exp(-past / lag), 0.0)
     late = ordered.copy()
     late[1:] -= np.diff(ordered) * left
     found = np.empty_like(reading)

@@ -18,7 +18,7 @@ from system.bench.departures import FORM, departure_parameters
 from system.bench.outputs import METERED, Solved
 from system.bench.parameters import BASE_NAMES
 from system.bench.points import BenchPoints
-from system.bench.sensors import READING_NAMES, SENSOR_NAMES, TRACE_NAMES, read, read_turns
+from system.bench.sensors import LAG_NAMES, READING_NAMES, SENSOR_NAMES, TRACE_NAMES, read, read_turns
 from system.bench.setting import Setting, affected, setting
 from system.description.pump import PumpDescription
 from system.effects.applied import effects_at
@@ -37,6 +37,8 @@ STEP = 0.03
 """Of slopes by difference, in spreads of the parameter."""
 LAW_STEP = 0.005
 """The same of laws, whose sizes readings determine far better than priors: a knee seldom lies within the step."""
+LAG_STEP, LAG_FELT = 1.0, 0.1
+"""The same of the lag of a meter, up to a lag of `LAG_FELT` spreads: readings have no slope there."""
 LOG_STEP = 1e-3
 """The largest, of the value, on a logarithmic scale: leakage goes with the cube of a film."""
 SQUARE_STEP = 0.02
@@ -283,6 +285,8 @@ class LumpedBench:
         index = [parameter.name for parameter in self.parameters].index(name)
         parameter, value = self.parameters[index], float(values[index])
         share = LAW_STEP if parameter.role is Role.EXTENSION else STEP
+        if name in LAG_NAMES and value < LAG_FELT * parameter.spread:
+            share = LAG_STEP
         step = share * parameter.stretch(parameter.standard(value))
         if parameter.scale is Scale.LOG:
             step = min(step, LOG_STEP * value)

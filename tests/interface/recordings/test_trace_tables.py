@@ -24,7 +24,7 @@ def _rows(points=(4, 9)):
         return TraceMisfit(block, block.mean, np.zeros((72, 0)), np.full(72, SIGMA))
 
     flat = SimpleNamespace(traces=lambda values, points, angles: np.zeros((len(points), len(angles))))
-    recording = SimpleNamespace(notes=(), steady=SimpleNamespace(values=np.zeros((10, 0))))
+    recording = SimpleNamespace(notes=(), steady=SimpleNamespace(values=np.zeros((10, 0)), rows=None))
     study = SimpleNamespace(traces=tuple(map(misfit, points)), simulator=flat, recording=recording)
     nothing = SimpleNamespace(
         effects=(), hypotheses=(SimpleNamespace(posterior=None),), before=SimpleNamespace(values=np.zeros(0))
