@@ -6,12 +6,7 @@ the mismatch is assigned to the component whose own pattern explains it best.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from enum import Enum
-from math import log
-
 import numpy as np
-from scipy.special import logsumexp
 
 from diagnosis.study.departures import departure_columns, departure_evidence, departure_shapes
 from diagnosis.study.model import Study
@@ -22,47 +17,6 @@ from system.estimation.evidence import multiplier_evidence, project
 from system.inputs.channels import ChannelName
 
 Ranking = tuple[tuple[Component, float], ...]
-
-
-class ComponentGroup(Enum):
-    """Components that a bench map rarely separates."""
-
-    FILM_LEAKAGE = "leakage of the films"
-    CROSS_FLOW = "flow from delivery to inlet"
-    DRAIN_FLOW = "flow to the case beside the films"
-    DISPLACEMENT = "displacement and compression"
-    FRICTION = "friction"
-    COMMUTATION = "commutation"
-    CASE_DRAG = "drag in the case"
-    THERMAL_STATE = "thermal state"
-    SENSOR = "a sensor"
-
-
-MEMBERS: Mapping[ComponentGroup, tuple[Component, ...]] = {
-    ComponentGroup.FILM_LEAKAGE: (Component.PISTON_LEAKAGE, Component.SLIPPER_LEAKAGE, Component.PLATE_LEAKAGE),
-    ComponentGroup.CROSS_FLOW: (Component.CROSS_FLOW,),
-    ComponentGroup.DRAIN_FLOW: (Component.DRAIN_FLOW,),
-    ComponentGroup.DISPLACEMENT: (Component.DISPLACEMENT, Component.COMPRESSION),
-    ComponentGroup.FRICTION: (
-        Component.PISTON_FRICTION,
-        Component.SLIPPER_FRICTION,
-        Component.SOCKET_FRICTION,
-        Component.PLATE_FRICTION,
-        Component.GUIDE_FRICTION,
-        Component.BEARINGS,
-    ),
-    ComponentGroup.COMMUTATION: (Component.COMMUTATION,),
-    ComponentGroup.CASE_DRAG: (Component.CASE_DRAG,),
-    ComponentGroup.THERMAL_STATE: (Component.THERMAL_STATE,),
-    ComponentGroup.SENSOR: (
-        Component.Q_OUT_SENSOR,
-        Component.Q_IN_SENSOR,
-        Component.Q_CASE_SENSOR,
-        Component.TORQUE_SENSOR,
-        Component.T_OUT_SENSOR,
-        Component.ELECTRIC_POWER_SENSOR,
-    ),
-}
 
 
 def component_evidences(study: Study, thresholds: Thresholds) -> Ranking:
@@ -107,17 +61,6 @@ def missing_pattern(study: Study, component: Component, thresholds: Thresholds) 
     added = study.components[component] * likeliest_multiplier(study, component, thresholds)[:, None]
     sigma = np.where(whitening.measured, whitening.sigma, 1.0)
     return np.asarray(np.where(whitening.measured, added, 0.0) / sigma)
-
-
-def group_evidences(ranking: Ranking) -> tuple[tuple[ComponentGroup, float], ...]:
-    """ln evidence of each group that has members in the ranking, best first: the mean over its members."""
-    known = dict(ranking)
-    found = []
-    for group, members in MEMBERS.items():
-        own = [known[member] for member in members if member in known]
-        if own:
-            found.append((group, float(logsumexp(own)) - log(len(own))))
-    return tuple(sorted(found, key=lambda each: -each[1]))
 
 
 def tied(ranking: Ranking, odds: float) -> tuple[Component, ...]:

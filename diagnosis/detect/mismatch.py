@@ -8,10 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.stats import chi2
 
-from diagnosis.detect.contrasts import contrasts, misfit
+from diagnosis.detect.contrasts import misfit
 from diagnosis.detect.multiplicity import family_chance, log_chances
-from diagnosis.detect.regions import MapRegion, flagged
-from diagnosis.study.map_axes import axis_values
 from diagnosis.study.model import Candidate, Study
 from diagnosis.thresholds import Thresholds
 from system.estimation.evidence import Score, score
@@ -29,7 +27,7 @@ class ChannelMisfit:
 
 @dataclass(frozen=True)
 class Detection:
-    """Goodness of fit, the candidates by strength, the significance of the strongest, and flags.
+    """Goodness of fit, the candidates by strength, and the significance of the strongest.
 
     p_value, chi2_per_dof: of the objective of the linear posterior with n degrees of freedom, n readings; chance: of
     any candidate as significant as the strongest without a mismatch.
@@ -40,7 +38,6 @@ class Detection:
     channels: Mapping[ChannelName, ChannelMisfit]
     chance: float
     strongest: tuple[tuple[Candidate, Score], ...]
-    flags: tuple[MapRegion, ...]
 
 
 def detect(study: Study, thresholds: Thresholds) -> Detection:
@@ -52,7 +49,6 @@ def detect(study: Study, thresholds: Thresholds) -> Detection:
     """
     base = study.base
     chance, strongest = most_striking(base, study.candidates, thresholds)
-    by_channel = {name: contrasts(base, at) for at, name in enumerate(study.channels)}
     readings = base.residual.size
     return Detection(
         p_value=float(chi2.sf(base.objective, readings)),
@@ -60,7 +56,6 @@ def detect(study: Study, thresholds: Thresholds) -> Detection:
         channels=channel_misfits(study),
         chance=chance,
         strongest=strongest,
-        flags=flagged(by_channel, axis_values(study.recording), thresholds),
     )
 
 

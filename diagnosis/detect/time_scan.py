@@ -13,7 +13,6 @@ from diagnosis.study.map_axes import smooth_shapes
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
 from reynolds.numerics.arrays import Array
-from system.estimation.evidence import multiplier_evidence
 from system.estimation.posterior import Posterior
 from system.inputs.channels import ChannelName
 
@@ -27,13 +26,12 @@ class TimeKind(Enum):
 
 @dataclass(frozen=True)
 class TimeMark:
-    """A drift, or an onset at point `at`, of a channel; `parameter`: one that drifts with it, or None."""
+    """A drift, or an onset at point `at`, of a channel."""
 
     kind: TimeKind
     channel: ChannelName
     at: int
     p_value: float
-    parameter: str | None
 
 
 def scan_time(study: Study, thresholds: Thresholds) -> TimeMark | None:
@@ -58,7 +56,7 @@ def scan_time(study: Study, thresholds: Thresholds) -> TimeMark | None:
         return None
     place = int(np.abs(z).argmax())
     kind = TimeKind.DRIFT if place == 0 else TimeKind.ONSET
-    return TimeMark(kind, channel, 0 if place == 0 else place - 1 + limits.ends, p_value, wandering(study, thresholds))
+    return TimeMark(kind, channel, 0 if place == 0 else place - 1 + limits.ends, p_value)
 
 
 def remains(mark: TimeMark, study: Study, fit: Posterior, thresholds: Thresholds) -> bool:
@@ -68,20 +66,6 @@ def remains(mark: TimeMark, study: Study, fit: Posterior, thresholds: Thresholds
     place = 0 if mark.kind is TimeKind.DRIFT else mark.at - thresholds.locate.ends + 1
     pattern = _patterns(len(study.observations.values), thresholds.locate.ends)[:, [place]]
     return bool(2.0 * norm.sf(abs(float(own.z(pattern)[0])) / own.scatter) <= thresholds.locate.p_value)
-
-
-def wandering(study: Study, thresholds: Thresholds) -> str | None:
-    """The parameter that explains most by a random walk along the rows, where that is `odds` nats or more.
-
-    Steps of one size at every point, each of prior N(0, w^2): the result of a Kalman filter, in one step.
-    """
-    base = study.base
-    steps = np.tri(len(study.observations.values)) / np.sqrt(len(study.observations.values))
-    rows = base.whitening.rows[:, 0]
-    widths = [width * thresholds.name.fault_factor for width in thresholds.name.mixture_widths]
-    evidence = [multiplier_evidence(base, column[:, None] * steps[rows], widths) for column in base.slopes.T]
-    best = int(np.argmax(evidence))
-    return base.parameters[best].name if evidence[best] >= thresholds.name.odds else None
 
 
 def _patterns(points: int, ends: int) -> Array:

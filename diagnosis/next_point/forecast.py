@@ -157,11 +157,6 @@ def outlook(
     return Outlook(study, one, other, (spreads[0], spreads[1]), input_slopes, further)
 
 
-def forecasts(study: Study, first: Contender, second: Contender, points: BenchPoints) -> Forecast:
-    """Forecasts of the two at N points, m readings each."""
-    return outlook(study, first, second, points).foretold().each()
-
-
 def predicted(contender: Contender, points: BenchPoints, further: tuple[RecordedChannel, ...] = ()) -> Array:
     """Readings (N, C) in SI at the points, predicted by the contender's fit."""
     return _there(contender, points, further).predict(contender.posterior.values)

@@ -9,14 +9,7 @@ from functools import partial
 import numpy as np
 
 from diagnosis.detect.angle_scan import AngleWindow, scan_angles
-from diagnosis.detect.component_evidence import (
-    ComponentGroup,
-    component_evidences,
-    departing_inputs,
-    group_evidences,
-    missing_pattern,
-    tied,
-)
+from diagnosis.detect.component_evidence import component_evidences, departing_inputs, missing_pattern, tied
 from diagnosis.detect.contrasts import Contrasts, contrasts
 from diagnosis.detect.regions import MapRegion, densest_region, strongest_region
 from diagnosis.detect.time_scan import TimeMark, scan_time
@@ -36,7 +29,7 @@ _Box = Callable[[ChannelName, Contrasts, Array, Mapping[ChannelName, Array]], Ma
 class Location:
     """Channels of the mismatch, largest share first, and the region of the first (None: everywhere).
 
-    components, groups: ln evidence of each, best first; tie: components that cannot be separated from the best; inputs:
+    components: ln evidence of each, best first; tie: components that cannot be separated from the best; inputs:
     those with which the best departs. If no component is ahead of the null, there are no channels, no region, no tie
     and no inputs.
     """
@@ -44,7 +37,6 @@ class Location:
     channels: tuple[ChannelName, ...]
     region: MapRegion | None
     components: tuple[tuple[Component, float], ...]
-    groups: tuple[tuple[ComponentGroup, float], ...]
     tie: tuple[Component, ...]
     angle: AngleWindow | None
     time: TimeMark | None
@@ -63,7 +55,6 @@ def locate(study: Study, thresholds: Thresholds) -> Location:
         channels=channels,
         region=_region(study, channels[0], pattern, densest) if channels else None,
         components=ranking,
-        groups=group_evidences(ranking),
         tie=tie,
         angle=scan_angles(study.traces, study.events, limits, thresholds.seeds.locate),
         time=scan_time(study, thresholds),

@@ -7,7 +7,6 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 from scipy.stats import norm
 
-from diagnosis.detect.component_evidence import MEMBERS, ComponentGroup
 from diagnosis.detect.contrasts import contrasts
 from diagnosis.detect.mismatch import most_striking
 from diagnosis.detect.regions import flagged
@@ -22,12 +21,25 @@ from diagnosis.verdict.suspects import remaining
 from diagnosis.verdict.trend import power_errors
 from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
+from system.effects.components import Component
 from system.estimation.evidence import multiplier_evidence
 from system.estimation.parameters import Role
 from system.estimation.posterior import Posterior, settled
 from system.inputs.channels import ChannelName
 
 BROADER = 5.44  # n times the variance of a squared scale from the median (Rousseeuw and Croux 1993)
+LEAKAGE_AND_FRICTION = (
+    Component.PISTON_LEAKAGE,
+    Component.SLIPPER_LEAKAGE,
+    Component.PLATE_LEAKAGE,
+    Component.PISTON_FRICTION,
+    Component.SLIPPER_FRICTION,
+    Component.SOCKET_FRICTION,
+    Component.PLATE_FRICTION,
+    Component.GUIDE_FRICTION,
+    Component.BEARINGS,
+)
+"""Components whose laws may vary over the map by the allowance."""
 MEDIAN = float(norm.isf(0.25))  # of |r| in sigma
 
 
@@ -131,8 +143,7 @@ def _pulls(posterior: Posterior, hypothesis: Hypothesis) -> float:
 
 def _allowed_gain(study: Study, before: Posterior, after: Posterior, thresholds: Thresholds) -> float:
     """ln evidence over the null if each leakage and friction law may vary over the map by the allowance."""
-    laws = (*MEMBERS[ComponentGroup.FILM_LEAKAGE], *MEMBERS[ComponentGroup.FRICTION])
-    free = [component for component in laws if component in study.components]
+    free = [component for component in LEAKAGE_AND_FRICTION if component in study.components]
 
     def evidence(posterior: Posterior) -> float:
         if not free:

@@ -126,12 +126,11 @@ def named_diagnosis() -> Diagnosis:
     return Diagnosis(
         kind=Kind.MISSING_PHYSICS,
         status=VerdictStatus.NAMED,
-        detection=Detection(1e-30, 9.1, {Q: ChannelMisfit(17.0, 0.97), T: ChannelMisfit(1.1, 0.03)}, 1e-20, (), ()),
+        detection=Detection(1e-30, 9.1, {Q: ChannelMisfit(17.0, 0.97), T: ChannelMisfit(1.1, 0.03)}, 1e-20, ()),
         location=Location(
             channels=(Q,),
             region=MapRegion(Q, {"p_out": 25e6}, {}, 12.0, "p_out above 250 bar"),
             components=((Component.PLATE_LEAKAGE, 200.0),),
-            groups=(),
             tie=(Component.PLATE_LEAKAGE,),
             angle=None,
             time=None,

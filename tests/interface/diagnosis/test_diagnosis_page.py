@@ -225,7 +225,7 @@ def test_what_is_added_is_drawn_over_an_axis_that_is_there(study: Study, named: 
 
 def test_where_is_told_by_what_shows_there(named: Diagnosis) -> None:
     """Traces have no place on the map; a drift has no point; with no mismatch no region stands."""
-    onset, drift = (TimeMark(kind, Q, 39, 1e-4, None) for kind in (TimeKind.ONSET, TimeKind.DRIFT))
+    onset, drift = (TimeMark(kind, Q, 39, 1e-4) for kind in (TimeKind.ONSET, TimeKind.DRIFT))
     rows = dict(place_rows(diagnosis_record(replace(named, location=replace(named.location, time=onset)))))
     assert rows["region of the map"] == "p_out above 250 bar"
     assert rows["onset"] == "Q_case from point 40 on"

@@ -231,7 +231,7 @@ def test_a_cause_outside_the_catalogue_may_be_in_the_class(named: Diagnosis) -> 
 
 def test_angles_and_times_are_part_of_where(named: Diagnosis) -> None:
     angle = AngleWindow(0.1, 0.3, 1e-3, ("delivery groove opens",))
-    time = TimeMark(TimeKind.ONSET, Q, 39, 1e-4, None)
+    time = TimeMark(TimeKind.ONSET, Q, 39, 1e-4)
     found = replace(named, location=replace(named.location, angle=angle, time=time))
     assert "shaft angle 5.73 to 17.2 deg (delivery groove opens)" in statement(found)
     where = diagnosis_record(found)["where"]

@@ -13,7 +13,7 @@ from scipy.stats import norm
 
 from diagnosis import BenchBox, Circuit, RecordedChannel, Recording, SteadyTable, Study, load_thresholds
 from diagnosis.next_point.choose import NextPoint, next_point
-from diagnosis.next_point.forecast import Contender, forecasts, independent, log_density, odds_forecast, outlook
+from diagnosis.next_point.forecast import Contender, independent, log_density, odds_forecast, outlook
 from diagnosis.next_point.operating_box import rig_box
 from reynolds import Array
 from system import (
@@ -107,7 +107,7 @@ def _recording(points: BenchPoints, flow: Array) -> Recording:
 
 def _gains(study: Study, first: Contender, second: Contender, points: BenchPoints) -> Array:
     """(N,), nats that readings at each of the points bring at least, whichever of the two is true."""
-    return forecasts(study, first, second, points).gain(LIMITS.readings)
+    return outlook(study, first, second, points).foretold().each().gain(LIMITS.readings)
 
 
 def _rivals(true: Law, seed: int, size: float = 0.3) -> tuple[Study, Contender, Contender]:

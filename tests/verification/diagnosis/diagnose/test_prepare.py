@@ -37,12 +37,11 @@ def _study(name: str, step: int = 1) -> Study:
 
 @pytest.mark.slow
 def test_a_bench_without_mismatch_has_none() -> None:
-    """chi-square per reading 1 within 4 sigma of its scatter, no candidate, no flag, no place."""
+    """chi-square per reading 1 within 4 sigma of its scatter, no candidate, no place."""
     study = _study("open-01")
     found, place = detect(study, LIMITS), locate(study, LIMITS)
     assert abs(found.chi2_per_dof - 1.0) < 4 * np.sqrt(2.0 / study.base.residual.size)
     assert found.chance > 0.05
-    assert found.flags == ()
     assert place.tie == ()
     assert place.time is None
     assert place.angle is None
