@@ -96,6 +96,15 @@ class ChannelForm:
         """True for a pressure, which is absolute or gauge."""
         return self.name.dimension is Dimension.PRESSURE
 
+    @property
+    def repeatability(self) -> tuple[float, float]:
+        """One sigma as stated: a part in SI, and a share of the SI reading that adds to it; 0 where not stated.
+
+        A stated share is of the reading in the file, which of a pressure may be absolute.
+        """
+        sigma, relative = self.sigma or 0.0, self.sigma_relative or 0.0
+        return (sigma - relative * self.offset if self.is_pressure else sigma), relative
+
     def si(self, numbers: Array) -> Array:
         """Numbers of the file in SI, pressures gauge."""
         return self.factor * numbers + self.offset

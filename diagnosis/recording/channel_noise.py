@@ -36,15 +36,13 @@ def recorded_channel(form: ChannelForm, readings: Array, found: float | None) ->
     0.05 % of full. `assumed` names every assumed field.
     """
     assumed = []
-    sigma, relative = form.sigma, form.sigma_relative
-    if sigma is None and relative is None:
-        sigma = 0.0 if form.name is ChannelName.DISPLACEMENT_RATIO else found
-        if sigma is None:
+    sigma, relative = form.repeatability
+    if form.sigma is None and form.sigma_relative is None:
+        shown = 0.0 if form.name is ChannelName.DISPLACEMENT_RATIO else found
+        if shown is None:
             return None
+        sigma = shown
         assumed.append("sigma")
-    sigma, relative = sigma or 0.0, relative or 0.0
-    if form.name.dimension is Dimension.PRESSURE:
-        sigma -= relative * form.offset  # a share of the reading, which may be absolute
     quantum = form.quantum
     commanded = form.name is ChannelName.DISPLACEMENT_RATIO and sigma == 0.0
     if quantum is None:

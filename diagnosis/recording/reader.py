@@ -191,6 +191,11 @@ def _series_points(
     form: SeriesSection, readings: Array, seconds: Array, channels: Sequence[ChannelForm], reader: ColumnReader
 ) -> _Points | None:
     """Means over the steady stretches of a series."""
+    silent = [one for one, column in zip(channels, readings.T, strict=True) if _is_silent(one, column)]
+    for one in silent:
+        _refuse_silent(one, reader)
+    if silent:
+        return None
     try:
         series = series_points(form, seconds, readings, channels)
     except TableFault as reason:
@@ -202,14 +207,27 @@ def _series_points(
     return _Points(series.means, numbers, series.hours, series.errors, {}, series)
 
 
+def _is_silent(channel: ChannelForm, readings: Array) -> bool:
+    """True without any reading; of the torque meter with the pump uncoupled, which is read where it suits, never."""
+    return channel.name is not ChannelName.TORQUE_UNCOUPLED and not np.isfinite(readings).any()
+
+
+def _refuse_silent(channel: ChannelForm, reader: ColumnReader) -> None:
+    name = channel.name.value
+    reader.fault(f"channel.{name}", f"{name} has no reading at any point", "readings as they were taken")
+
+
 def _channels(forms: Sequence[ChannelForm], points: _Points, reader: ColumnReader) -> tuple[RecordedChannel, ...]:
-    """Channels with their noise; a fault for each without a repeatability."""
+    """Channels with their noise; a fault for each without a reading, and for each without a repeatability."""
     inputs = points.readings[:, [k for k, form in enumerate(forms) if form.name in INPUTS]]
     channels = []
     for k, form in enumerate(forms):
+        if _is_silent(form, points.readings[:, k]):
+            _refuse_silent(form, reader)
+            continue
         followed = inputs[:, :0] if form.name in INPUTS else inputs
         found = repeatability(points.readings[:, k], followed, points.numbers)
-        if found is None and points.errors is not None:
+        if found is None and points.errors is not None and np.isfinite(points.errors[:, k]).any():
             found = float(np.sqrt(np.nanmean(points.errors[:, k] ** 2)))
         held = replace(form, sigma=None, sigma_relative=None, quantum=0.0) if points.quasi else form
         channel = recorded_channel(held, points.readings[:, k], found)

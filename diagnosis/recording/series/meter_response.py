@@ -200,11 +200,14 @@ def lagged(moving: Array, samples: float) -> Array:
 
 
 def follows_down(values: Array, columns: Array, band: float) -> Mask:
-    """True for values (n,) clear of a dead band, all where it is nan; columns (n, m): of a smooth law of them."""
+    """True for values (n,) clear of a dead band; all where it is nan, or where none is. columns (n, m): of a smooth law
+    of them.
+    """
     if not np.isfinite(band):
         return np.ones(len(values), dtype=bool)
     spread = NORMAL * float(np.median(np.abs(robust(columns, values)[1])))
-    return np.asarray(values > band + CLEAR * spread)
+    clear = values > band + CLEAR * spread
+    return np.asarray(clear | ~clear.any())
 
 
 def misfit(columns: Array, values: Array) -> float:

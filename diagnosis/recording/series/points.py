@@ -14,7 +14,8 @@ from diagnosis.recording.series.holds import without_holds
 from diagnosis.recording.series.meter_response import MeterResponse
 from diagnosis.recording.series.quasi_steady import FEWEST, THERMOMETER, quasi_steady
 from diagnosis.recording.series.standstill import without_standstill
-from diagnosis.recording.series.steadiness import SteadyRule, effective_number, steady_stretches
+from diagnosis.recording.series.steadiness import Repeatability, SteadyRule, effective_number, steady_stretches
+from diagnosis.recording.series.stretches import bridged, stretches
 from diagnosis.recording.tables.table import TableFault
 from reynolds.numerics.arrays import Array
 from system.inputs.channels import INPUTS, ChannelName
@@ -24,6 +25,7 @@ MOST_POINTS = 160  # steady stretches: more are repeats of each other, and a fit
 MISSTATED = 2.0  # times the scatter, or one over this: a repeatability that the data contradict
 ZERO_OF_BAND = 0.1  # of a dead band: a low-flow cut-off is set at some five times the limit of a meter's zero
 SETTLING = 3.0  # lags of a channel omitted at the beginning of a stretch
+SHORT_GAP = 2  # samples lost in a row that a line replaces in a moving series
 
 
 @dataclass(frozen=True)
@@ -55,13 +57,13 @@ def series_points(form: SeriesSection, time: Array, readings: Array, channels: S
     never turns, and for a series of fewer than `FEWEST` samples.
     """
     clock = clocked(time, readings)
-    time, readings, raster = on_raster(clock.time, clock.readings, form.raster or 0.0)
-    readings, put_aside = without_what_is_no_reading(time, readings, [channel.name for channel in channels])
+    time, rastered, raster = on_raster(clock.time, clock.readings, form.raster or 0.0)
+    readings, put_aside = without_what_is_no_reading(time, rastered, [channel.name for channel in channels])
     notes = (*clock.notes, *put_aside)
     steady = _steady_stretches(form, raster, readings, channels)
     at_work = int(np.any(np.isfinite(readings), axis=1).sum())
     if not steady or len(steady) > MOST_POINTS or sum(s.stop - s.start for s in steady) < LEAST_STEADY * at_work:
-        found = _quasi_steady_points(time, readings, channels)
+        found = _quasi_steady_points(time, with_short_gaps_filled(rastered, readings), channels)
         return replace(found, notes=(*notes, *found.notes))
     means, errors = (np.array(each) for each in zip(*(_mean(readings[s]) for s in steady), strict=True))
     middle = np.array([0.5 * (time[s.start] + time[s.stop - 1]) for s in steady])
@@ -83,6 +85,20 @@ def without_what_is_no_reading(
     return readings, (*of_rest, *of_holds)
 
 
+def with_short_gaps_filled(rastered: Array, readings: Array) -> Array:
+    """Readings (T, C) with lines across gaps of `SHORT_GAP` samples at most; not across readings put aside.
+
+    rastered: (T, C), before readings were put aside.
+    """
+    filled = readings.copy()
+    for column, before in zip(filled.T, rastered.T, strict=True):
+        short = np.zeros(len(column), dtype=bool)
+        for gap in stretches(~np.isfinite(column)):
+            short[gap] = gap.stop - gap.start <= SHORT_GAP and not np.isfinite(before[gap]).any()
+        column[:] = bridged(column, short)
+    return filled
+
+
 def _steady_stretches(
     form: SeriesSection, raster: float, readings: Array, channels: Sequence[ChannelForm]
 ) -> list[slice]:
@@ -94,9 +110,9 @@ def _steady_stretches(
     if rule.samples < FEWEST:
         return []
     inputs = [k for k, channel in enumerate(channels) if channel.name in INPUTS] or list(range(len(channels)))
-    sigma = np.array([channels[k].sigma or 0.0 for k in inputs])
+    noise = Repeatability(*np.array([channels[k].repeatability for k in inputs]).T)
     settling = int(np.ceil(SETTLING * max(channel.lag or 0.0 for channel in channels) / raster))
-    steady = [slice(s.start + settling, s.stop) for s in steady_stretches(readings[:, inputs], sigma, rule)]
+    steady = [slice(s.start + settling, s.stop) for s in steady_stretches(readings[:, inputs], noise, rule)]
     steady = [s for s in steady if s.stop - s.start >= rule.samples // 2]
     return steady
 
@@ -137,8 +153,9 @@ def _meter_note(channel: ChannelForm, meter: MeterResponse) -> str:
 def on_raster(time: Array, readings: Array, raster: float) -> tuple[Array, Array, float]:
     """Return time, readings and step in s of a series on an even raster: means over each step.
 
-    raster 0: the median step of the series; steps without a sample are gaps (nan). Raises TableFault where time
-    does not rise or a raster is finer than the series.
+    raster 0: the median step of the series. A step holds the samples from half a sample before its beginning, so that
+    stamps may be rounded or uneven by as much; steps without a sample are gaps (nan). Raises TableFault where time does
+    not rise or a raster is finer than the series.
     """
     steps = np.diff(time)
     if len(time) < 2 or not np.all(np.isfinite(time)) or np.any(steps <= 0.0):
@@ -148,7 +165,7 @@ def on_raster(time: Array, readings: Array, raster: float) -> tuple[Array, Array
     if raster and raster < 0.999 * own:
         raise TableFault(f"a raster of {raster:g} s", f"at least {own:g} s, the step of the series")
     width = raster or own
-    place = np.floor((time - time[0]) / width + 1e-6).astype(np.int64)
+    place = np.floor((time - time[0] + 0.5 * own) / width).astype(np.int64)
     count = int(place[-1]) + 1
     known = np.isfinite(readings)
     numbers = np.zeros((count, readings.shape[1]))

@@ -60,26 +60,26 @@ class QuasiSteady:
 def quasi_steady(
     time: Array, readings: Array, names: Sequence[ChannelName], thermometer: float = THERMOMETER
 ) -> QuasiSteady:
-    """Points of readings (T, C) in SI of the channels `names` at even times (T,) in s.
+    """Points of readings (T, C) in SI of the channels `names` at even times (T,) in s, nan in gaps.
 
-    thermometer: lag of the case's, s. Raises ValueError for fewer than `FEWEST` samples without gaps and jumps of
-    the inputs.
+    thermometer: lag of the case's, s. An output with fewer than `FEWEST` readings has no mean at any point. Raises
+    ValueError for fewer than `FEWEST` samples without gaps and jumps of the inputs.
     """
     if len(time) < FEWEST:
         raise ValueError(f"{len(time)} samples")
-    readings, inputs = _filled(readings), [k for k, name in enumerate(names) if name in INPUTS]
-    outputs = [k for k in range(len(names)) if k not in inputs]
+    inputs = [k for k, name in enumerate(names) if name in INPUTS]
     rate, usable = _calm(time, readings, names)
     usable &= np.all(np.isfinite(readings[:, inputs]), axis=1)
     if usable.sum() < FEWEST:
         raise ValueError(f"{usable.sum()} samples without gaps and jumps")
-    warming, found = np.zeros(len(time)), readings[usable]
+    warming, found, readings = np.zeros(len(time)), readings[usable], readings.copy()
     if ChannelName.T_CASE in names:
         case, step = names.index(ChannelName.T_CASE), float(np.median(np.diff(time)))
         warming = _rate(readings[:, case], step)
         readings[:, case] = ahead_of(readings[:, case], thermometer / step)
     moving, past = _moving(readings[:, inputs]), past_share(time)
     known = usable[:, None] & np.isfinite(readings)
+    outputs = [k for k in range(len(names)) if k not in inputs and known[:, k].sum() >= FEWEST]
     storing = {k: rate if names[k] is ChannelName.Q_OUT else None for k in outputs}
     meters = {
         k: meter_response(readings[:, k], time, moving, storing[k], known[:, k], _is_flow(names[k])) for k in outputs
@@ -146,18 +146,6 @@ def _calm(time: Array, readings: Array, names: Sequence[ChannelName]) -> tuple[A
         return np.zeros(len(time)), np.isfinite(pressure)
     rate = _rate(pressure, float(np.median(np.diff(time))))
     return rate, np.abs(rate) < STEEP * max(float(np.nanmax(np.abs(pressure))), 1.0)
-
-
-def _filled(readings: Array) -> Array:
-    """Readings with gaps of a sample or two filled by a straight line."""
-    filled = readings.copy()
-    place = np.arange(len(readings))
-    for column in filled.T:
-        known = np.isfinite(column)
-        near = np.convolve(known, np.ones(5), "same") > 0
-        if known.any():
-            column[near] = np.interp(place[near], place[known], column[known])
-    return filled
 
 
 def _rate(values: Array, raster: float) -> Array:

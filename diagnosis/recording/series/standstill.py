@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from scipy.ndimage import binary_dilation
 
 from diagnosis.recording.series.stretches import Mask, stretches, times
 from diagnosis.recording.tables.table import TableFault
@@ -32,7 +33,7 @@ def without_standstill(time: Array, readings: Array, names: Sequence[ChannelName
     column = readings[:, list(names).index(name)]
     if not np.any(np.abs(column) > 0.0):
         raise TableFault(f"{name.value} at 0 throughout", "a pump that turns")
-    aside = np.convolve(rests, np.ones(2 * MARGIN + 1), "same") > 0.5
+    aside = binary_dilation(rests, iterations=MARGIN)
     limit = f"{reading(name, _limit(column)):.3g} {channel_unit(name)}"
     note = f"{name.value} is below {limit}, the pump at rest, {times(time, stretches(rests))}: put aside"
     return np.where(aside[:, None], np.nan, readings), (note,)

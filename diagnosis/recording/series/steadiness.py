@@ -10,6 +10,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
+from diagnosis.recording.series.stretches import Mask, bridged
 from reynolds.numerics.arrays import Array
 
 LONGEST_MEMORY = 0.99  # lag-one correlation beyond which a window counts as one sample
@@ -19,6 +20,8 @@ ROUNDING = 1e-12
 MOST_MEMORY = 0.9  # resolution of a tenth of a window
 BLOCK = 1_000_000
 """Samples of the windows that are judged at once."""
+LOST = 0.05
+"""Of a window, the largest share of samples without a reading; one sample in any case."""
 
 
 @dataclass(frozen=True)
@@ -33,29 +36,46 @@ class SteadyRule:
     limit: float
 
 
-def steady_stretches(inputs: Array, sigma: Array, rule: SteadyRule) -> tuple[slice, ...]:
+@dataclass(frozen=True)
+class Repeatability:
+    """One sigma of M inputs, sigma + relative |reading|: (M,) each, 0 where unknown."""
+
+    sigma: Array
+    relative: Array
+
+
+def steady_stretches(inputs: Array, noise: Repeatability, rule: SteadyRule) -> tuple[slice, ...]:
     """Return the stretches of a series (T, M) that are steady in every input, longest possible, in order.
 
     Windows of rule.samples slide by a tenth; a stretch is the union of overlapping steady windows. One that drifts as a
-    whole is halved until its parts are steady, down to single windows. sigma: (M,), 0 where unknown.
+    whole is halved until its parts are steady, down to single windows. Within a window an input may lack a reading at
+    a share `LOST` of the samples, or at one.
     """
     length = rule.samples
     if length < 8 or len(inputs) < length:
         return ()
+    inputs = np.stack([bridged(column, _few_are_lost(column, length)) for column in inputs.T], axis=1)
     step = max(1, length // 10)
     windows = sliding_window_view(inputs, length, axis=0)[::step]
     block = max(1, BLOCK // length)
-    steady = np.concatenate([are_steady(windows[k : k + block], sigma, rule) for k in range(0, len(windows), block)])
-    runs = _joined(_runs((step * np.flatnonzero(steady)).tolist(), step, length), inputs, sigma, rule)
-    return tuple(part for run in runs for part in _pieces(run, inputs, sigma, rule))
+    steady = np.concatenate([are_steady(windows[k : k + block], noise, rule) for k in range(0, len(windows), block)])
+    runs = _joined(_runs((step * np.flatnonzero(steady)).tolist(), step, length), inputs, noise, rule)
+    return tuple(part for run in runs for part in _pieces(run, inputs, noise, rule))
 
 
-def is_steady(window: Array, sigma: Array, rule: SteadyRule) -> bool:
+def _few_are_lost(column: Array, length: int) -> Mask:
+    """True (T,) for each reading of (T,) about which few of `length` samples lack one (`LOST`)."""
+    lost = np.concatenate([[0], np.cumsum(~np.isfinite(column))])
+    first = np.clip(np.arange(len(column)) - length // 2, 0, len(column) - length)
+    return np.asarray(lost[first + length] - lost[first] <= max(LOST * length, 1.0))
+
+
+def is_steady(window: Array, noise: Repeatability, rule: SteadyRule) -> bool:
     """True where no column of one window (T, M) moves significantly (`are_steady`)."""
-    return bool(are_steady(window.T[None], sigma, rule)[0])
+    return bool(are_steady(window.T[None], noise, rule)[0])
 
 
-def are_steady(windows: Array, sigma: Array, rule: SteadyRule) -> NDArray[np.bool_]:
+def are_steady(windows: Array, noise: Repeatability, rule: SteadyRule) -> NDArray[np.bool_]:
     """True (W,) for each window of (W, M, T) without gaps in which no input moves significantly (`SteadyRule`).
 
     From the means of ten parts: slope and bow are the coefficients of the Legendre polynomials P1 and P2, by least
@@ -67,18 +87,21 @@ def are_steady(windows: Array, sigma: Array, rule: SteadyRule) -> NDArray[np.boo
     middle = (borders[1:] + borders[:-1]) / samples - 1.0
     shapes = np.stack([np.ones_like(middle), middle, 1.5 * middle**2 - 0.5], axis=1)
     by_means, widths = np.linalg.pinv(shapes), np.sqrt(np.diag(np.linalg.inv(shapes.T @ shapes)))
-    for at, harmless in enumerate(sigma):
+    for at, (sigma, relative) in enumerate(zip(noise.sigma, noise.relative, strict=True)):
         left = np.flatnonzero(steady)
-        steady[left] = ~_moves(windows[left, at], borders, (by_means, widths), float(harmless), rule.limit)
+        columns = windows[left, at]
+        harmless = sigma + relative * np.abs(columns.mean(axis=1))
+        steady[left] = ~_moves(columns, borders, (by_means, widths), harmless, rule.limit)
     return steady
 
 
 def _moves(
-    columns: Array, borders: NDArray[np.int64], line: tuple[Array, Array], sigma: float, limit: float
+    columns: Array, borders: NDArray[np.int64], line: tuple[Array, Array], sigma: Array, limit: float
 ) -> NDArray[np.bool_]:
     """True (W,) for each window of (W, T) in which one input moves significantly.
 
-    line: slope and bow by the means of the parts (3, P), and their standard errors by that of a mean (3,).
+    line: slope and bow by the means of the parts (3, P), and their standard errors by that of a mean (3,); sigma: (W,),
+    changes below it are harmless.
     """
     means, error = _parts(columns, borders)
     rounded = ROUNDING * np.max(np.abs(columns), axis=1, initial=0.0)  # a commanded value has no noise at all
@@ -142,13 +165,13 @@ def _runs(starts: Sequence[int], step: int, length: int) -> Iterator[slice]:
         yield slice(first, last + length)
 
 
-def _joined(runs: Iterator[slice], inputs: Array, sigma: Array, rule: SteadyRule) -> Iterator[slice]:
+def _joined(runs: Iterator[slice], inputs: Array, noise: Repeatability, rule: SteadyRule) -> Iterator[slice]:
     """Runs that overlap as one where that is steady as a whole (a window failed by chance), else cut."""
     last: slice | None = None
     for run in runs:
         if last is not None and run.start < last.stop:
             whole = slice(last.start, run.stop)
-            if is_steady(inputs[whole], sigma, rule):
+            if is_steady(inputs[whole], noise, rule):
                 last = whole
                 continue
             run = slice(last.stop, run.stop)
@@ -161,16 +184,16 @@ def _joined(runs: Iterator[slice], inputs: Array, sigma: Array, rule: SteadyRule
         yield last
 
 
-def _pieces(run: slice, inputs: Array, sigma: Array, rule: SteadyRule) -> Iterator[slice]:
+def _pieces(run: slice, inputs: Array, noise: Repeatability, rule: SteadyRule) -> Iterator[slice]:
     """A run, or its halves where it is not steady as a whole; of a short one its first steady window."""
     length = run.stop - run.start
-    if is_steady(inputs[run], sigma, rule):
+    if is_steady(inputs[run], noise, rule):
         yield run
         return
     if length < 2 * rule.samples:
         windows = (slice(run.start + k, run.start + k + rule.samples) for k in range(length - rule.samples + 1))
-        yield from islice((one for one in windows if is_steady(inputs[one], sigma, rule)), 1)
+        yield from islice((one for one in windows if is_steady(inputs[one], noise, rule)), 1)
         return
     middle = run.start + length // 2
-    yield from _pieces(slice(run.start, middle), inputs, sigma, rule)
-    yield from _pieces(slice(middle, run.stop), inputs, sigma, rule)
+    yield from _pieces(slice(run.start, middle), inputs, noise, rule)
+    yield from _pieces(slice(middle, run.stop), inputs, noise, rule)

@@ -33,6 +33,16 @@ def equal_runs(values: Array) -> tuple[slice, ...]:
     return tuple(slice(int(a), int(b)) for a, b in pairwise(borders) if read[a])
 
 
+def bridged(values: Array, marks: Mask) -> Array:
+    """Values (T,) with lines across the gaps that are marked (T,); gaps at either end stay."""
+    known, place = np.isfinite(values), np.arange(len(values))
+    if not known.any():
+        return values
+    first, last = place[known][[0, -1]]
+    gaps = marks & ~known & (place > first) & (place < last)
+    return np.where(gaps, np.interp(place, place[known], values[known]), values)
+
+
 def times(time: Array, found: Sequence[slice]) -> str:
     """Stretches by their times in s as text: of many the longest, with the number and length of all."""
     longest = sorted(sorted(found, key=lambda s: s.start - s.stop)[:NAMED], key=lambda s: s.start)

@@ -227,6 +227,37 @@ T_case = { column = "T", unit = "degC", sigma_relative = 0.1 }
     ].nearest  # fmt: skip
 
 
+SERIES = '[series]\nfile = "steady.csv"\ntime = { column = "t", unit = "s" }\n'
+
+
+def _ramp(rows, speed="1500", **columns):
+    """A ramp of pressure with a row each second, its flow and the columns named; without a number where empty."""
+    heads = ",".join(["t,n,p,T,Q", *columns])
+    wobble = [0.01 * (k * k % 7) for k in range(rows)]
+    lines = [
+        f"{k},{speed if k else 1},{100 + 0.1 * k + wobble[k]:.3f},50,{90 - 0.005 * k - 0.3 * wobble[k]:.4f}"
+        for k in range(rows)
+    ]
+    return "\n".join([heads, *(",".join([line, *columns.values()]) for line in lines)]) + "\n"
+
+
+@pytest.mark.parametrize("form", [STEADY, SERIES])
+@pytest.mark.parametrize("channel", ['torque = { column = "M", unit = "N m"', 'T_in = { column = "M", unit = "degC"'])
+def test_a_column_without_a_number_is_told_by_its_channel(tmp_path, form, channel):
+    """An output and an input that were not connected, in a table of points and in a ramp."""
+    faults = _paths(tmp_path, form=HEAD + form + CHANNELS + channel + " }\n", table=_ramp(60, M=""))
+    name = channel.partition(" ")[0]
+    assert faults[f"channel.{name}"].found == f"{name} has no reading at any point"
+    assert set(faults) == {f"channel.{name}"}
+
+
+@pytest.mark.parametrize("rows", range(2, 8))
+def test_a_series_of_a_few_rows_is_refused_with_the_number_it_needs(tmp_path, rows):
+    """One of them at rest, with less than 5 % of the usual speed."""
+    faults = _paths(tmp_path, form=HEAD + SERIES + CHANNELS, table=_ramp(rows))
+    assert faults["series"].expected == "at least 8 samples of a series"
+
+
 KEYS = ["format", "title", "steady", "series", "traces", "channel", "circuit", "order", "pump"]
 INNER = ["file", "speed", "p_out", "unit", "column", "time", "sigma", "x"]
 TEXTS = st.sampled_from(["", "n", "rpm", "10 s", "1 bar"])

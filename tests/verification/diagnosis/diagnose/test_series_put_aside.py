@@ -102,6 +102,15 @@ def test_rest_is_put_aside_by_speed_or_by_flow():
         without_standstill(TIME, 0.0 * readings, NAMES)
 
 
+@pytest.mark.parametrize("rows", range(1, 9))
+def test_rest_in_a_series_of_a_few_rows_keeps_their_number(rows):
+    readings = series()[:rows]
+    readings[0, SPEED] = 0.1
+    kept, _ = without_standstill(TIME[:rows], readings, NAMES)
+    assert kept.shape == readings.shape
+    assert np.flatnonzero(np.isnan(kept[:, SPEED])).tolist() == list(range(min(rows, 4 if rows > 1 else 0)))
+
+
 def test_a_clock_that_is_set_repeats_or_stops_gives_a_time_that_rises():
     time, readings = TIME.copy(), series()
     time[1000:] -= 700.0
