@@ -81,3 +81,26 @@ def test_of_equally_thin_places_that_of_the_highest_pressure_counts(tmp_path):
     thin = fields["film_thickness"].values < 1.01e-5
     at = np.argmax(np.where(thin, fields["film_pressure"].values, -np.inf))
     assert least == pytest.approx([float(fields["x"][at]), float(fields["y"][at])])
+
+
+def test_an_axisymmetric_ring_is_even_round_its_circumference(tmp_path):
+    """Between its vertices a circle has their pressure: chords of the cells, nearer to the middle, have another."""
+    coarse = RING.replace("[16, 48]", "[16, 12]")
+    _, (_, round_) = solved(coarse, tmp_path)
+    assert round_.values["film_pressure"] == pytest.approx(np.full(len(round_.cut.x), 1e6), rel=1e-5)
+    middle = coarse.replace("format = 1", "format = 1\n[constants]\nr0 = 7e-3").replace(
+        '"10 um"', '"1e-5 + 1e-3*abs(sqrt(x**2 + y**2) - r0)"'
+    )
+    (tmp_path / "middle").mkdir()
+    found = solved(middle, tmp_path / "middle")[1]
+    _, _, _, least = found
+    assert (least.place, least.cut.words) == (LEAST, "the circumference")
+    assert np.isfinite(least.values["film_pressure"]).all()
+    for name in ("film_pressure", "film_thickness_cell"):
+        assert least.values[name] == pytest.approx(np.full(len(least.cut.x), least.values[name][0]), rel=1e-4)
+
+
+def test_a_triangle_ring_is_even_round_its_circumference_too(tmp_path):
+    text = RING.replace("[16, 48]", '[16, 12], cell = "triangle"')
+    _, (_, round_) = solved(text, tmp_path)
+    assert round_.values["film_pressure"] == pytest.approx(np.full(len(round_.cut.x), 1e6), rel=1e-5)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from reynolds.numerics.arrays import Array
 from swashfilm.output.data.files import Column, write_columns
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
 
 SHOWN = ("film_pressure", "film_thickness_cell", "temperature")
 POINTS = 201
+ENDS = 0.5 * TURN - 1e-6
+"""Angle from which a vertex of a ring counts as one at both ends of the turn."""
 INSET = 1e-6
 """Distance from the film's edge, as share of its size, of a cut along it: points on the edge may count as outside."""
 ALIKE = 1e-6
@@ -49,6 +52,19 @@ class Cut:
 
 
 @dataclass(frozen=True)
+class Plane:
+    """Triangles of a film in the plane of its interpolation.
+
+    vertices (points,), cells (triangles,): numbers of the film's own vertices and triangles; of: place there of x, y.
+    """
+
+    mesh: Any
+    vertices: NDArray[np.intp]
+    cells: NDArray[np.intp]
+    of: Callable[[Array, Array], tuple[Array, Array]]
+
+
+@dataclass(frozen=True)
 class Section:
     """Fields (n,) along a cut through a place, SI, by their names in FIELDS; nan outside the film."""
 
@@ -61,15 +77,17 @@ def sections(fields: xarray.Dataset) -> tuple[Section, ...]:
     """Return the sections of a film at one time: two cuts through each of its `places`.
 
     The cuts run along x and y; of a ring about the origin along its radius and round it. Values between vertices are
-    linear; a film with steps between its cells has the value of each cell.
+    linear, of a ring in angle and radius; a film with steps between its cells has the value of each cell.
     """
     from matplotlib.tri import Triangulation
 
     corners = triangles(fields["cells"].values)
     mesh = Triangulation(fields["x"].values, fields["y"].values, corners)
     shown = [field.name for field in FIELDS if field.name in SHOWN and field.name in fields]
-    of_fields = {name: _interpolated(mesh, fields, name) for name in shown}
-    cuts = _round_cuts if _is_ring(mesh) else _straight_cuts
+    unrolled = unroll(mesh) if _is_ring(mesh) else None
+    plane = unrolled or Plane(mesh, np.arange(len(mesh.x)), np.arange(len(corners)), lambda x, y: (x, y))
+    of_fields = {name: _interpolated(plane, fields, name) for name in shown}
+    cuts = _straight_cuts if unrolled is None else _round_cuts
     return tuple(
         Section(place, cut, {name: of(cut.x, cut.y) for name, of in of_fields.items()})
         for place, at in places(fields).items()
@@ -141,22 +159,54 @@ def _draw(axes: Any, one: Section, values: Array) -> None:
     axes.plot(cut.along[near], values[near], "o", color=colour, fillstyle=filling)
 
 
-def _interpolated(mesh: Any, fields: xarray.Dataset, name: str) -> Any:
+def _interpolated(plane: Plane, fields: xarray.Dataset, name: str) -> Any:
     """Return a field of vertices or cells as a function of places x, y (n,); nan outside the film."""
     from matplotlib.tri import LinearTriInterpolator
 
     drawn = smooth_name(fields, name)
     values, cells = fields[drawn].values, fields["cells"].values
     if fields[drawn].dims == fields["x"].dims:
-        linear = LinearTriInterpolator(mesh, values)
-        return lambda x, y: np.ma.filled(linear(x, y), np.nan)
-    of_triangles, finder = np.tile(values, 2 if cells.shape[1] == 4 else 1), mesh.get_trifinder()
+        linear = LinearTriInterpolator(plane.mesh, values[plane.vertices])
+        return lambda x, y: np.ma.filled(linear(*plane.of(x, y)), np.nan)
+    of_triangles, finder = np.tile(values, 2 if cells.shape[1] == 4 else 1)[plane.cells], plane.mesh.get_trifinder()
 
     def of_cells(x: Array, y: Array) -> Array:
-        inside = finder(x, y)
+        inside = finder(*plane.of(x, y))
         return np.where(inside >= 0, of_triangles[inside], np.nan)
 
     return of_cells
+
+
+def unroll(mesh: Any) -> Plane | None:
+    """Return a ring about the origin over a turn of angle and radius, None where its cells are too coarse for it.
+
+    Circles of vertices are straight there, so that values on such a circle lie between its own vertices alone. Cells
+    across the half turn appear at both ends.
+    """
+    from matplotlib.tri import Triangulation
+
+    corners, radii, size = mesh.triangles, np.hypot(mesh.x, mesh.y), float(np.hypot(mesh.x, mesh.y).max())
+    angles = np.arctan2(mesh.y, mesh.x)[corners]
+    turns = -np.round((angles - angles[:, :1]) / TURN).astype(int)
+    angles = angles + TURN * turns
+    high, low = angles.max(axis=1) > ENDS, angles.min(axis=1) < -ENDS
+    cells = np.concatenate([np.arange(len(corners)), np.flatnonzero(high), np.flatnonzero(low)])
+    shift = np.repeat([0, -1, 1], [len(corners), high.sum(), low.sum()])
+    places, numbers = np.unique(
+        np.stack([corners[cells], turns[cells] + shift[:, None]], axis=-1).reshape(-1, 2), axis=0, return_inverse=True
+    )
+    vertices, turn = places.T
+    along = np.arctan2(mesh.y, mesh.x)[vertices] + TURN * turn
+    found = Triangulation(along, radii[vertices] / size, numbers.reshape(-1, 3))
+    if (_areas(found) * -_areas(mesh)[cells] <= 0.0).any():
+        return None
+    return Plane(found, vertices, cells, lambda x, y: (np.arctan2(y, x), np.hypot(x, y) / size))
+
+
+def _areas(mesh: Any) -> Array:
+    """Return the signed area (triangles,) of each triangle, in the units of its coordinates."""
+    (x1, x2, x3), (y1, y2, y3) = mesh.x[mesh.triangles].T, mesh.y[mesh.triangles].T
+    return np.asarray(0.5 * ((x2 - x1) * (y3 - y1) - (x3 - x1) * (y2 - y1)))
 
 
 def _is_ring(mesh: Any) -> bool:
@@ -187,14 +237,6 @@ def _round_cuts(mesh: Any, place: Array) -> Iterator[Cut]:
     angle, radius = float(np.arctan2(place[1], place[0])), float(np.clip(np.hypot(*place), low, high))
     along = np.unique([*np.linspace(low, high, POINTS), radius])
     yield Cut("the radius", "radius [mm]", along * 1e3, along * np.cos(angle), along * np.sin(angle), radius * 1e3)
-    radius = min(radius, _inscribed(mesh, radii) - gap)
     turn = np.unique([*np.linspace(-0.5 * TURN, 0.5 * TURN, 2 * POINTS - 1), angle])
     x, y = radius * np.cos(turn), radius * np.sin(turn)
     yield Cut("the circumference", "angle [deg]", np.degrees(turn), x, y, float(np.degrees(angle)))
-
-
-def _inscribed(mesh: Any, radii: Array) -> float:
-    """Return the largest radius all round within a ring, whose outer edge is a polygon."""
-    outer = radii > radii.max() - INSET * float(np.ptp(radii))
-    sides = mesh.edges[np.all(outer[mesh.edges], axis=1)]
-    return float(np.hypot(mesh.x[sides].mean(axis=1), mesh.y[sides].mean(axis=1)).min())
