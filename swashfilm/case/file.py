@@ -47,7 +47,10 @@ class FilmCase:
     problem: FilmProblem
 
     def refined(self) -> FilmCase:
-        """Return the case on a mesh twice finer; raise InputError where a field has no valid value there."""
+        """Return the case on a mesh twice finer, with half its time step.
+
+        Raises InputError where a field has no valid value there.
+        """
         stated = self.stated.refined()
         return replace(self, stated=stated, problem=film_problem(stated), resolved=resolved_text(stated))
 

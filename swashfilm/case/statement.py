@@ -41,11 +41,11 @@ class FilmStatement:
         return Uniform(self.oil.dynamic_viscosity, Dimension.DYNAMIC_VISCOSITY)
 
     def refined(self) -> FilmStatement:
-        """Return the film on a mesh twice finer, with the data of a mesh file on it."""
+        """Return the film on a mesh twice finer, with the data of a mesh file on it, and with half its time step."""
         mesh = self.film.mesh.finer()
         keys = [key for key, own in fields_of(FilmSection).items() if own.formula]
         moved = {key: _on(getattr(self.film, key), mesh.data) for key in keys}
-        return replace(self, film=replace(self.film, mesh=mesh, **moved))
+        return replace(self, film=replace(self.film, mesh=mesh, **moved), time=self.time and self.time.halved)
 
 
 def _on(value: Any, data: MeshData) -> Any:

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
@@ -20,17 +21,22 @@ DIGITS = 6
 
 @dataclass(frozen=True)
 class Refinement:
-    """Unknowns of the meshes, coarsest (that of the case) first; expected orders; the numbers by key."""
+    """Unknowns of the meshes, coarsest (that of the case) first; expected orders; the numbers by key.
+
+    time_steps: those of a transient on each mesh; empty for a film that is not in time.
+    """
 
     dofs: tuple[int, ...]
     expected: tuple[float, float]
     numbers: Mapping[str, Convergence]
+    time_steps: tuple[int, ...] = ()
 
 
 def refinement_summary(found: Refinement) -> dict[str, Any]:
     """Return the entry of summary.json: SI, units in the keys of the numbers."""
     return {
         "dofs": list(found.dofs),
+        **({"time_steps": list(found.time_steps)} if found.time_steps else {}),
         "expected_order": list(found.expected),
         "numbers": {
             key: {
@@ -90,7 +96,9 @@ def bar_text(summary: Mapping[str, Any], key: str, dimension: Dimension) -> str:
 
 def refinement_head(found: Mapping[str, Any]) -> tuple[str, ...]:
     """Return the titles of the columns of `refinement_rows`."""
-    return ("", *(f"{dofs} unknowns" for dofs in found["dofs"]), "order", "limit", "verdict")
+    counts = zip_longest(found["dofs"], found.get("time_steps", ()))
+    meshes = [f"{dofs} unknowns" + (f", {steps} steps" if steps else "") for dofs, steps in counts]
+    return ("", *meshes, "order", "limit", "verdict")
 
 
 def write_refinement(path: Path, found: Refinement) -> None:

@@ -24,6 +24,8 @@ from system.points.floating_gaps import MARCHED, FloatingOptions, usual_options
 FILMS, RING_FILMS = 36, 180  # kept films of a turn; those of the valve plate repeat with the pitch
 MOST = 7200  # steps or films of a turn
 FINER = (0.25, 8.0)
+STEPS_FINER = 4.0
+"""Factor by which the allowed error of a step falls with each halving of cells and angles: steps are of order two."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,8 +74,17 @@ class RevolutionCase:
     options: FloatingOptions
 
     def refined(self) -> RevolutionCase:
-        """Return the same gap on a mesh twice finer."""
-        return replace(self, options=replace(self.options, finer=2 * self.options.finer))
+        """Return the same gap on a mesh twice finer, with finer steps."""
+        return replace(self, options=refined_options(self.options))
+
+
+def refined_options(options: FloatingOptions) -> FloatingOptions:
+    """Return cells and angles of half the size, and steps of a fourth of the error."""
+    exact = options.accuracy
+    finer = replace(exact, step=exact.step / STEPS_FINER, closed=exact.closed / STEPS_FINER)
+    return replace(
+        options, steps=2 * options.steps, keep=2 * options.keep, finer=2.0 * options.finer, accuracy=finer
+    )  # fmt: skip
 
 
 def read_revolution_case(name: str, text: str, top: Table, film: Table, folder: Path) -> RevolutionCase | None:

@@ -40,6 +40,11 @@ class TimeStepsSection:
         return self.end / self.steps
 
     @property
+    def halved(self) -> TimeStepsSection:
+        """The same times in twice the number of steps; raises InputError beyond the largest number."""
+        return replace(self, step=0.5 * self.step_taken)
+
+    @property
     def output_times(self) -> list[float]:
         """Times (s) of the start and of the written films."""
         return [self.end * number / self.outputs for number in range(self.outputs + 1)]

@@ -50,6 +50,7 @@ def write_film_page(folder: Path) -> Path:
         warnings=summary["warnings"],
         assumptions=summary.get("assumptions", []),
         refinement=[refinement_head(found), *refinement_rows(found)] if (found := summary.get("refinement")) else [],
+        in_time="time_steps" in summary,
         case=kept_text(folder, "resolved.toml"),
     )
 

@@ -1,6 +1,8 @@
-"""Mesh convergence of a film: the same case on meshes each twice finer, and the limits of its numbers."""
+"""Convergence of a film: the same case on meshes, and with time steps, each twice finer; the limits of its numbers."""
 
+from collections.abc import Mapping
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -8,6 +10,7 @@ from reynolds.numerics.convergence import convergence
 from swashfilm.case.fields.mesh import MOST_CELLS
 from swashfilm.case.file import FilmCase
 from swashfilm.case.gap.instant import GapCase
+from swashfilm.case.tables.time_steps import MOST_STEPS
 from swashfilm.output.headline import headline_numbers, sizes
 from swashfilm.output.refinement import Refinement
 from swashfilm.runs.film.solve.study import FilmStudy, solve_case
@@ -15,19 +18,27 @@ from swashfilm.runs.film.summary import film_summary, natural_sizes
 from system.inputs.faults import Fault, InputFaults
 from system.work.progress import Report
 
+CHECKS = ("time_steps", "mass_balance_error_of_time")
+"""Numbers of a transient without a limit: a count, and round-off."""
+
 
 def check_refinement(case: FilmCase | GapCase, meshes: int) -> None:
-    """Raise InputFaults where the finest mesh has too many cells."""
+    """Raise InputFaults where the finest mesh has too many cells, or the last transient too many steps."""
     if isinstance(case, GapCase):
         return  # small enough for every number of meshes of the command line
+    faults, time = [], case.stated.time
     cells = case.problem.space.area.shape[0] * 4 ** (meshes - 1)
     if cells > MOST_CELLS:
-        fault = Fault("--refine", f"{meshes} meshes, the finest of {cells} cells", f"at most {MOST_CELLS} cells")
-        raise InputFaults("command line", [fault])
+        faults.append(Fault("--refine", f"{meshes} meshes, the finest of {cells} cells", f"at most {MOST_CELLS} cells"))
+    if time and (steps := time.steps * 2 ** (meshes - 1)) > MOST_STEPS:
+        found = f"{meshes} meshes, the steps halved with each: {steps} steps"
+        faults.append(Fault("--refine", found, f"at most {MOST_STEPS} steps"))
+    if faults:
+        raise InputFaults("command line", faults)
 
 
 def refine_study(case: FilmCase | GapCase, study: FilmStudy, meshes: int, report: Report) -> Refinement:
-    """Solve the case on `meshes` meshes; `study` is the solution on the first.
+    """Solve the case on `meshes` meshes, a transient with half the time step on each; `study` is that of the first.
 
     Raises FilmNotConverged as the solver of any mesh, and InputError as `refined` of the case.
     """
@@ -36,22 +47,28 @@ def refine_study(case: FilmCase | GapCase, study: FilmStudy, meshes: int, report
         report(number, meshes, f"mesh {number + 1} of {meshes}")
         case = case.refined()
         studies.append(solve_case(case))
-    rows = [headline_numbers(film_summary(replace(one, sensitivity=None))) for one in studies]
+    rows = [_converging(film_summary(replace(one, sensitivity=None))) for one in studies]
     expected = expected_orders(studies[-1])
     size = sizes(rows[-1], natural_sizes(studies[-1].solution))
     return Refinement(
         tuple(one.solution.problem.space.size for one in studies),
         expected,
         {key: convergence([row[key] for row in rows], expected, size[key]) for key in rows[0]},
+        tuple(len(one.history) for one in studies) if study.history else (),
     )
+
+
+def _converging(summary: Mapping[str, Any]) -> dict[str, float]:
+    """Return the headline numbers of a summary that have a limit: no counts, and no checks of the solver."""
+    return {key: value for key, value in headline_numbers(summary).items() if key not in CHECKS}
 
 
 def expected_orders(study: FilmStudy) -> tuple[float, float]:
     """Return the range of expected orders of integrals: twice the degree; less where theory does not determine it.
 
     Order one: a cavity's front, which moves by whole cells, upwind transport of oil, and of heat where
-    temperatures jump. Order two: quadratic pressures on straight cells of a round film.
+    temperatures jump, and implicit Euler steps. Order two: quadratic pressures on straight cells of a round film.
     """
     if study.solution.problem.space.degree == 2:
-        return 2.0, 4.0
-    return (1.0, 2.0) if study.heat or np.any(study.solution.cavity) else (2.0, 2.0)
+        return (1.0 if study.history else 2.0), 4.0
+    return (1.0, 2.0) if study.heat or study.history or np.any(study.solution.cavity) else (2.0, 2.0)

@@ -1,11 +1,12 @@
 """Convergence of a floating point: the same point on meshes, angles and time steps each twice finer."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from typing import Any
 
 from gaps.revolution.march import GapRevolution
 from reynolds.numerics.convergence import convergence
+from swashfilm.case.gap.revolution import refined_options
 from swashfilm.output.headline import sizes
 from swashfilm.output.refinement import Refinement
 from system.points.floating import FloatingPoint
@@ -16,17 +17,6 @@ from system.work.progress import Report
 
 EXPECTED = (1.0, 2.0)
 """Orders: two of smooth films and of steps in time; one where cavities' fronts move by whole cells, and of heat."""
-STEPS_FINER = 4.0
-"""Factor by which the allowed error of a step falls with each halving of cells and angles: steps are of order two."""
-
-
-def refined(options: FloatingOptions) -> FloatingOptions:
-    """Return cells and angles of half the size, and steps of a fourth of the error."""
-    exact = options.accuracy
-    finer = replace(exact, step=exact.step / STEPS_FINER, closed=exact.closed / STEPS_FINER)
-    return replace(
-        options, steps=2 * options.steps, keep=2 * options.keep, finer=2.0 * options.finer, accuracy=finer
-    )  # fmt: skip
 
 
 def refine_point(
@@ -41,7 +31,7 @@ def refine_point(
     """
     found = [first]
     for number in range(2, levels + 1):
-        options = refined(found[-1].options)
+        options = refined_options(found[-1].options)
         found.append(solve(options, None, of_level(report, number, levels)))
     rows = [point_numbers(one) for one in found]
     size = sizes(rows[-1], {})

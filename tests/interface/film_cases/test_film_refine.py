@@ -172,3 +172,42 @@ def test_what_cannot_be_refined_is_told(tmp_path, capsys):
     path.write_text(SLIDER.replace("[16, 2]", "[400, 200]"), encoding="utf-8")
     assert main(["film", str(path), "--refine", "5"]) == 2
     assert "at most 10000000 cells" in capsys.readouterr().err
+
+
+SQUEEZED = """
+format = 1
+[film]
+mesh = { kind = "rectangle", size = ["10 mm", "1 mm"], cells = [16, 1], periodic = "y" }
+thickness = "1e-5*(1.25 + 0.5*cos(4*pi*t))"
+viscosity = "30 mPa s"
+[time]
+end = "0.5 s"
+step = "50 ms"
+[boundary]
+left = { pressure = "0.5 bar" }
+right = { pressure = "0.5 bar" }
+"""
+
+
+def test_the_bar_of_a_transient_counts_its_time_step(tmp_path):
+    """A strip squeezed to and fro: F/W = -mu L^3 (dh/dt)/h^3 + p0 L at each instant of the full film."""
+    path = tmp_path / "squeezed.toml"
+    path.write_text(SQUEEZED, encoding="utf-8")
+    assert main(["film", str(path), "--refine", "4", "-o", str(tmp_path / "run")]) == 0
+    found = json.loads((tmp_path / "run" / "summary.json").read_text("utf-8"))["refinement"]
+    assert found["time_steps"] == [10, 20, 40, 80]
+    angle = np.linspace(0.0, np.pi, 10001)
+    film, closing = 1e-5 * (1.25 + 0.5 * np.cos(angle)), 2e-5 * np.pi * np.sin(angle)
+    most = float(np.max(0.03 * 0.01**3 * closing / film**3 * 0.001) + 0.5e5 * 0.01 * 0.001)
+    peak = found["numbers"]["load_of_time_max_N"]
+    assert abs(peak["extrapolated"] - most) <= peak["error"] < 0.1 * most
+    assert abs(peak["values"][0] - most) > 0.2 * most
+    assert not {"time_steps", "mass_balance_error_of_time"} & set(found["numbers"])
+    assert "half the time step" in (tmp_path / "run" / "report.html").read_text("utf-8")
+
+
+def test_a_transient_of_too_many_steps_is_told(tmp_path, capsys):
+    path = tmp_path / "squeezed.toml"
+    path.write_text(SQUEEZED.replace("50 ms", "1 us"), encoding="utf-8")
+    assert main(["film", str(path), "--refine", "3"]) == 2
+    assert "at most 1000000 steps" in capsys.readouterr().err

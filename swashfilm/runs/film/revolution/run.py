@@ -1,4 +1,4 @@
-"""Run of one gap over the turn, also on finer meshes: solved, and written as tables, fields and a page."""
+"""Run of one gap over the turn, also on finer meshes and steps: solved, and written as tables, fields and a page."""
 
 from pathlib import Path
 from typing import Any
@@ -26,7 +26,7 @@ NUMBERS = (
 
 
 def refine_revolution(case: RevolutionCase, study: RevolutionStudy, meshes: int, report: Report) -> Refinement:
-    """Solve the case on `meshes` meshes with the same time steps; `study` is the solution on the first.
+    """Solve the case on `meshes` meshes, angles and steps each twice finer; `study` is the solution on the first.
 
     Raises FilmNotConverged as the solver of any mesh.
     """

@@ -8,7 +8,8 @@ import pytest
 
 from gaps.films.physics import Effect, Physics
 from reynolds import FilmNotConverged
-from swashfilm.runs.pump.refine import point_numbers, refine_point, refined
+from swashfilm.case.gap.revolution import refined_options
+from swashfilm.runs.pump.refine import point_numbers, refine_point
 from system import RIGID, FloatingOptions, floating_point, load_pump, operating_point
 from system.points.floating import FloatingPoint
 from system.points.table import sources
@@ -116,10 +117,12 @@ def test_a_point_that_is_the_first_of_its_row_fails_by_itself(monkeypatch):
 
 
 def test_levels_halve_cells_and_angles_and_quarter_the_steps_error():
-    found = refined(COARSE)
+    found = refined_options(COARSE)
     assert found.steps == 2 * COARSE.steps
     assert found.accuracy.step == COARSE.accuracy.step / 4.0
-    assert refined(FloatingOptions()).piston_cells == tuple(2 * cells for cells in FloatingOptions().piston_cells)
+    assert refined_options(FloatingOptions()).piston_cells == tuple(
+        2 * cells for cells in FloatingOptions().piston_cells
+    )
 
 
 @pytest.mark.slow
