@@ -71,18 +71,21 @@ def _show_pump(file: str) -> None:
 
 def _checked_film(path: Path, tables: Mapping[str, Any]) -> str:
     """Return the resolved film case of a file, of a study or table at its first point; raise InputFaults."""
+    from swashfilm.case.file import FilmCase
     from swashfilm.case.study import StudyCase, load_film
+    from swashfilm.runs.film.extent import case_warnings
     from swashfilm.runs.table.gap_case import load_gap_table
 
     if "table" in tables:
         asked = load_gap_table(path)
         show(f"a table over {len(asked.axes)} keys")
         return asked.study.case(asked.study.points[0]).resolved
-    case = load_film(path)
-    if isinstance(case, StudyCase):
-        show(f"a study of {len(case.points)} points")
-        return case.case(case.points[0]).resolved
-    return case.resolved
+    found = load_film(path)
+    if isinstance(found, StudyCase):
+        show(f"a study of {len(found.points)} points")
+    case = found.case(found.points[0]) if isinstance(found, StudyCase) else found
+    warned = case_warnings(case) if isinstance(case, FilmCase) else []
+    return "\n".join([case.resolved, *(f"warning: {text}" for text in warned)])
 
 
 def _add_options(command: argparse.ArgumentParser) -> None:

@@ -12,6 +12,7 @@ from reynolds.errors import InputError
 from reynolds.fem.mesh import Cell, FilmMesh, annulus, mesh_from_file, rectangle
 from reynolds.fem.refine import refine_mesh
 from swashfilm.case.fields.field import MeshData, mesh_data
+from system.description.parts import MeshUnit
 from system.inputs.sections.fields import FromFile, Length, Limits, Positive, Several
 from system.inputs.units import Dimension, QuantityError, format_quantity
 
@@ -47,6 +48,41 @@ class FileMesh:
         """Return the mesh twice finer, with its data."""
         refined = refine_mesh(self.film_mesh)
         return FileMesh(self.path, refined.film_mesh, self.data.refined(refined))
+
+
+def read_film_mesh(path: Path) -> FileMesh:
+    """Return the mesh of a file; raise QuantityError for a file without a mesh."""
+    try:
+        film_mesh = mesh_from_file(path)
+        return FileMesh(path, film_mesh, mesh_data(path, film_mesh))
+    except InputError as reason:
+        raise QuantityError(reason.found, reason.expected) from None
+
+
+MeshOfFile = Annotated[FileMesh, FromFile(read_film_mesh)]
+
+
+@dataclass(frozen=True, kw_only=True)
+class FileMeshSection:
+    """A mesh file with the unit of its coordinates; its data are in SI."""
+
+    file: MeshOfFile
+    unit: MeshUnit = MeshUnit.METRE  # of its coordinates
+
+    @property
+    def data(self) -> MeshData:
+        """Data of the file."""
+        return self.file.data
+
+    @cached_property
+    def film_mesh(self) -> FilmMesh:
+        """The mesh, m."""
+        mesh = self.file.film_mesh.mesh
+        return replace(self.file.film_mesh, mesh=replace(mesh, doflocs=self.unit.metres * mesh.doflocs))
+
+    def finer(self) -> FileMeshSection:
+        """Return the mesh twice finer, with its data."""
+        return replace(self, file=self.file.finer())
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -107,17 +143,8 @@ class AnnulusSection:
         return replace(self, cells=(2 * self.cells[0], 2 * self.cells[1]))
 
 
-def read_film_mesh(path: Path) -> FileMesh:
-    """Return the mesh of a file; raise QuantityError for a file without a mesh."""
-    try:
-        film_mesh = mesh_from_file(path)
-        return FileMesh(path, film_mesh, mesh_data(path, film_mesh))
-    except InputError as reason:
-        raise QuantityError(reason.found, reason.expected) from None
-
-
-CaseMesh = FileMesh | RectangleSection | AnnulusSection
-MeshForm = Annotated[FileMesh, FromFile(read_film_mesh)] | RectangleSection | AnnulusSection
+CaseMesh = FileMesh | FileMeshSection | RectangleSection | AnnulusSection
+MeshForm = MeshOfFile | FileMeshSection | RectangleSection | AnnulusSection
 
 
 def _check_count(cells: tuple[int, int]) -> None:

@@ -7,7 +7,10 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Annotated
 
+import numpy as np
+
 from reynolds.fem.space import FilmSpace
+from reynolds.numerics.arrays import Array
 from reynolds.problem import Cavitation
 from reynolds.solve.load_search import RigidLoad
 from swashfilm.case.fields.field import Field, Uniform
@@ -16,7 +19,7 @@ from swashfilm.case.fields.reader import field_fault
 from system.inputs.sections.fields import FormulaOf, Limits, Positive, Pressure, Several, fields_of
 from system.inputs.sections.reader import Reading
 from system.inputs.toml_table import Table
-from system.inputs.units import Dimension
+from system.inputs.units import Dimension, format_quantity
 
 Velocity = Annotated[tuple[Field, Field], Several(2), FormulaOf(Dimension.VELOCITY)]
 AT_REST = (Uniform(0.0, Dimension.VELOCITY), Uniform(0.0, Dimension.VELOCITY))
@@ -82,10 +85,28 @@ def check_film(top: Table, film: Table, stated: FilmSection, space: FilmSpace | 
         positive = key in ("viscosity", "initial_film_fraction") or (key == "thickness" and not has_load)
         if fault := field_fault(field, space, positive=positive):
             film.fault(key, *fault)
+        elif key == "thickness" and not has_load and (ratio := _thickness_ratio(field, space)) >= 1.0:
+            extent = format_quantity(extent_of(space), Dimension.LENGTH, digits=4)
+            found = f"'{field}', in the mean {ratio:.3g} times the film's extent of {extent}"
+            film.fault(key, found, "a film much thinner than its extent, both in m", "is it in um? times 1e-6")
         elif key == "initial_film_fraction" and (most := field.sample(space).max()) > 1.0:
             film.fault(key, f"{most:.4g}", "a number above 0 and at most 1, or a formula of x and y (text in quotes)")
     if not reading.faulty & {"film.order", "film.cavitation"}:
         _check_order(film, stated, with_heat=top.get("thermal") is not None)
+
+
+def mean_over(space: FilmSpace, field: Array) -> float:
+    """Return the mean of a field (cells | 1, points | 1) over the film."""
+    return float(np.sum(field * space.area)) / float(space.area.sum())
+
+
+def extent_of(space: FilmSpace) -> float:
+    """Return the square root of the film's area, m."""
+    return float(np.sqrt(space.area.sum()))
+
+
+def _thickness_ratio(field: Field, space: FilmSpace) -> float:
+    return mean_over(space, field.sample(space)) / extent_of(space)
 
 
 def _check_cylinder(film: Table, stated: FilmSection) -> None:

@@ -13,6 +13,7 @@ from reynolds.laws.roughness import beyond_range
 from reynolds.problem import Cavitation, FilmSolution
 from reynolds.solve.loads import dissipated
 from reynolds.solve.rubbing import rubbing
+from swashfilm.runs.film.extent import Warned, extent_warnings
 from swashfilm.runs.film.solve.gap import gap_warnings
 from system.inputs.shown import pressure_text
 
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
     from swashfilm.runs.film.solve.study import FilmStudy
 
 LARGEST_CAVITY_FLOW = 0.01  # of the throughput; Reynolds' condition creates or removes oil in a cavity
-LARGEST_THICKNESS_RATIO = 0.05  # of the film's extent; beyond, flow across the film is not negligible
 FEW_UNKNOWNS = 8
 LARGEST_FALL = 2.0  # ratio of film thicknesses within a cell
 MOST_BYTES = 200e6  # of the fields of a transient in results.nc
@@ -34,9 +34,6 @@ VACUUM = -101325.0  # Pa, gauge
 LEAST_LAMBDA = 1.0  # h/sigma; below, contacts support most of the load
 LARGEST_ISOVISCOUS_PRESSURE = 50e6  # Pa; the viscosity of a mineral oil is about three times its low-pressure value
 LARGEST_OIL_PRESSURE = 1e9  # Pa; oil turns solid about it, and hardened steel yields soon above it
-
-Warned = tuple[str, str]
-"""Name and text of a warning."""
 
 
 def film_warnings(study: FilmStudy) -> list[dict[str, str]]:
@@ -56,7 +53,7 @@ def film_warnings(study: FilmStudy) -> list[dict[str, str]]:
 
 
 def _flow_warnings(study: FilmStudy) -> Iterator[Warned]:
-    """Yield warnings of a cavity that creates oil, of a film that is not thin, and of oil under tension."""
+    """Yield warnings of a cavity that creates oil, of a film unlike its extent, and of oil under tension."""
     problem, integrals = study.solution.problem, study.loads
     through = integrals.throughput
     share = abs(integrals.cavity_flow) / through if through > 0.0 else np.inf * abs(integrals.cavity_flow)
@@ -67,13 +64,7 @@ def _flow_warnings(study: FilmStudy) -> Iterator[Warned]:
             f"Reynolds' condition {verb} oil in the cavity, {share:.2%} of the throughput "
             f"(limit {LARGEST_CAVITY_FLOW:.0%}): inflow and outflow differ",
         )
-    thick = _thickness_ratio(study.solution)
-    if thick > LARGEST_THICKNESS_RATIO:
-        yield (
-            "film_not_thin",
-            f"the mean film is {thick:.2g} of the film's extent (limit {LARGEST_THICKNESS_RATIO:.2g} "
-            "for Reynolds' equation): check the unit (um, not mm?) and the mesh (in metres?)",
-        )
+    yield from extent_warnings(problem.space, study.solution.film.thickness)
     lowest = float(study.solution.pressure.min())
     if problem.cavitation is Cavitation.NONE and lowest < problem.cavitation_pressure:
         yield (
@@ -99,7 +90,7 @@ def _mesh_warnings(solution: FilmSolution) -> Iterator[Warned]:
 def _heat_warnings(study: FilmStudy) -> Iterator[Warned]:
     """Yield a warning of an isothermal film with notable heat, or of a film too hot for oil."""
     if study.heat is not None:
-        if (hottest := float(study.heat.temperature.max())) > HOTTEST:
+        if (hottest := float(study.heat.highest.max())) > HOTTEST:
             yield (
                 "film_hot",
                 f"the film reaches {hottest - 273.15:.0f} degC (limit {HOTTEST - 273.15:.0f} degC for mineral oils, "
@@ -230,10 +221,3 @@ def _supply_warnings(study: FilmStudy) -> Iterator[Warned]:
             f"the cavitation pressure is {pressure_text(problem.cavitation_pressure, 4)} gauge (vacuum: "
             f"{pressure_text(VACUUM, 4)}): oil cavitates before; is the value absolute, not gauge?",
         )
-
-
-def _thickness_ratio(solution: FilmSolution) -> float:
-    """Return the mean film thickness over the square root of the film's area."""
-    area = solution.problem.space.area
-    total = float(area.sum())
-    return float(np.sum(solution.film.thickness * area)) / total**1.5
