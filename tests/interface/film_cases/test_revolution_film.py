@@ -16,7 +16,7 @@ from swashfilm.case.gap.revolution import RevolutionCase
 from swashfilm.case.study import load_film
 from swashfilm.runs.film.revolution.solve import revolution_summary, solve_revolution
 from swashfilm.runs.film.revolution.validity import _motion
-from swashfilm.runs.film.series import points as film_series
+from swashfilm.runs.film.series.points import StudyWork
 from system import InputFaults, lumped_point
 
 SLIPPER = """format = 1
@@ -289,7 +289,7 @@ def test_a_study_varies_the_pump_and_goes_on_after_a_break(monkeypatch):
         curves = data["course_film_thickness_min_m"]
         assert curves.dims == ("pump.slipper.rim_relief.depth", "shaft_angle_deg")
         assert curves.min("shaft_angle_deg").values == pytest.approx(1e-6 * least)
-    monkeypatch.setattr(film_series, "solve_revolution", _refused)
+    monkeypatch.setattr(StudyWork, "solve", _refused)
     assert main(["film", str(written(STUDY)), "-o", "again", "--resume", "out"]) == 0
     assert np.array_equal(table("again/study.csv")["film thickness min [um]"], found["film thickness min [um]"])
 

@@ -56,7 +56,7 @@ def test_films_and_joint_hold_the_spins(found):
     axes = [bore_axis(kind.rotor.drive, angle) for angle in angles]
     given = -np.mean([at.ball_moment @ axis for at, axis in zip(kind.drives.group, axes, strict=True)])
     assert given == pytest.approx(-torque, rel=0.1)  # a joint that nearly sticks: steep in its spin
-    assert held.drags[0] > 2.0 * kind.rotor.estimated_torques.drags[0]
+    assert held.drags[0] > kind.rotor.estimated_torques.drags[0]  # contact holds it besides the shear of its oil
 
 
 def test_power_is_accounted_for(found):
