@@ -14,8 +14,8 @@ from diagnosis.checks.sensors import copies, low_resolution, noiseless, repeated
 from diagnosis.checks.units import implausible, trace_sizes
 from diagnosis.recording.model import DataNote, NoteKind, Recording
 from diagnosis.thresholds import DataLimits
-from system.bench.outputs import SIMULATED
-from system.inputs.channels import OUTPUTS, ChannelName
+from system.bench.outputs import METERED, SIMULATED
+from system.inputs.channels import ChannelName
 
 VARIED = 2.0
 """Ratio of flow over displacement ratio between points: more than leakage explains: the speed varied."""
@@ -39,13 +39,14 @@ def check_recording(recording: Recording, displacement: float | None, limits: Da
 
 
 def too_few(recording: Recording, parameters: int) -> DataNote | None:
-    """Return the fault of a recording with no more readings of outputs than parameters; None if it has more."""
-    readings = sum(int(np.isfinite(recording.steady.column(name)).sum()) for name in OUTPUTS)
+    """Return the fault of a recording with no more simulated readings than parameters; None if it has more."""
+    readings = sum(int(np.isfinite(recording.steady.column(name)).sum()) for name in METERED)
     if readings > parameters:
         return None
     points = len(recording.steady.values)
     at = "one operating point, inputs do not move" if points == 1 else f"{points} operating points"
-    text = f"{readings} readings at {at}, for {parameters} parameters: record other pressures, speeds and temperatures"
+    count = f"{readings} readings of flows and torque at {at}, for {parameters} parameters"
+    text = f"{count}: record other pressures, speeds and temperatures"
     return DataNote(NoteKind.FAULT, None, (), text)
 
 

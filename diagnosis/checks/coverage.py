@@ -6,13 +6,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from diagnosis.recording.line_pressures import NOISE
 from diagnosis.recording.model import DataNote, NoteKind, RecordedChannel, Recording, reading_sigma
 from diagnosis.recording.units import channel_unit, reading
 from system.bench.outputs import SIMULATED
 from system.inputs.channels import INPUTS, ChannelName
 from system.inputs.units import Dimension
 
-NOISE = 8.0  # sigma: the range of noise alone in any recording
 MOVED = 0.02  # of the largest reading: least change of an input
 WARMED = 2.0  # K, of a temperature
 FEWEST = 3  # least number of points of a recording

@@ -9,21 +9,19 @@ from itertools import combinations_with_replacement
 import numpy as np
 from numpy.typing import NDArray
 
+from diagnosis.recording.line_pressures import LINES, varied_lines
 from diagnosis.recording.model import DataNote, NoteKind, Recording, reading_sigma
 from diagnosis.thresholds import DataLimits
 from reynolds.numerics.arrays import Array
 from system.inputs.channels import OUTPUTS, ChannelName
-from system.inputs.units import STANDARD_ATMOSPHERE
 
 ROUNDS = 12
 NEIGHBOURS = 6
 NORMAL = 1.4826  # standard deviation of a normal distribution per median magnitude
-LEAST_LINE = 0.1  # of the largest absolute pressure of a line: less is the accuracy of its control
-LEAST_WARMING = 3.0  # K, the same of a temperature
+LEAST_WARMING = 3.0  # K: less is the accuracy of a temperature's control
 ORDER = 3  # points at the beginning and at the end of the recording: warming, cooling
 MOST_ENDS = 0.5  # of all points: an axis with more at its ends has no middle
 _AXES = (ChannelName.SPEED, ChannelName.P_OUT, ChannelName.DISPLACEMENT_RATIO, ChannelName.T_CASE)
-_LINES = (ChannelName.P_IN, ChannelName.P_CASE)
 
 Marks = NDArray[np.bool_]
 
@@ -78,16 +76,13 @@ def is_alone(point: int, score: Array, places: Array) -> bool:
 
 def _varied(recording: Recording) -> Mapping[ChannelName, Array]:
     """The inputs that vary, (N,) each in SI: axes of the map, and pressures of the lines where they are set."""
-    found = {}
-    for name in (*_AXES, *_LINES):
-        column = recording.steady.column(name)
-        known = column[np.isfinite(column)]
-        if not known.size:
-            continue
-        largest = np.max(np.abs(known + STANDARD_ATMOSPHERE if name in _LINES else known))
-        if np.ptp(known) > LEAST_LINE * largest if name in _LINES else np.std(known) > 1e-3 * largest:
-            found[name] = column
-    return found
+    columns = {name: recording.steady.column(name) for name in (*_AXES, *varied_lines(recording))}
+    known = {name: column[np.isfinite(column)] for name, column in columns.items()}
+    return {
+        name: columns[name]
+        for name, own in known.items()
+        if name in LINES or (own.size and np.std(own) > 1e-3 * np.max(np.abs(own)))
+    }
 
 
 def _scaled(axes: Mapping[ChannelName, Array]) -> Array:
@@ -103,7 +98,7 @@ def _shapes(axes: Mapping[ChannelName, Array]) -> Array | None:
     """
     if not axes:
         return None
-    places, lines = _scaled(axes), np.array([name in _LINES for name in axes])
+    places, lines = _scaled(axes), np.array([name in LINES for name in axes])
     own, beside = places[:, ~lines], places[:, lines]
     count = len(places)
     for degree in (3, 2, 1):

@@ -7,10 +7,10 @@ from itertools import combinations
 
 import numpy as np
 
+from diagnosis.recording.channel_noise import STILL
 from diagnosis.recording.model import DataNote, NoteKind, RecordedChannel, Recording, reading_sigma
 from reynolds.numerics.arrays import Array
 from system.inputs.channels import INPUTS, OUTPUTS, ChannelName
-from system.inputs.units import Dimension
 
 LEAST_RUN = 5  # equal readings from which a sensor may be stuck
 MOVED = 0.05  # share of its largest value by which an input moves
@@ -18,7 +18,7 @@ ALIVE = 3.0  # steps by which a channel changes from point to point at half of t
 SAME = 0.05  # of one sigma: two channels that agree to this are one
 SCATTER = 1e-3  # of a channel's own spread, beyond which it has noise of its own however large its sigma is stated
 BY_CHANCE = 1e-3  # of a noisy input with equal consecutive readings
-FLOWS = (ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE)
+FLOWS = (ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE)  # of the pump's balance
 TELLING = 4  # channels that do not repeat themselves together
 
 
@@ -106,7 +106,7 @@ def repeated_rows(recording: Recording) -> Iterator[DataNote]:
 def copies(recording: Recording) -> Iterator[DataNote]:
     """Yield a fault for each pair of channels of which one is the other, shifted or scaled, to within its step.
 
-    Of three flows also where one is computed from the two others.
+    Of the three flows of the balance also where one is computed from the two others.
     """
     measured = [channel for channel in recording.channels if channel.name in (*INPUTS, *OUTPUTS)]
     found = False
@@ -115,7 +115,7 @@ def copies(recording: Recording) -> Iterator[DataNote]:
             found = True
             text = f"{other.name.value} follows {one.name.value} without noise of its own: computed, not measured"
             yield DataNote(NoteKind.FAULT, other.name, (), text + "; leave it out of [channel]")
-    flows = [channel for channel in measured if channel.name.dimension is Dimension.VOLUME_FLOW]
+    flows = [channel for channel in map(recording.channel, FLOWS) if channel is not None]
     if len(flows) == len(FLOWS) and not found:
         *two, last = flows
         if _is_computed(recording, last, two):
@@ -126,7 +126,8 @@ def copies(recording: Recording) -> Iterator[DataNote]:
 def noiseless(recording: Recording) -> Iterator[DataNote]:
     """Yield a fault for each output that states no noise, or whose repeats agree beyond its stated repeatability.
 
-    The latter at 5 or more degrees of freedom, with a scatter under a hundredth of sigma: simulated or copied.
+    The latter at 5 or more degrees of freedom, with a scatter under a hundredth of sigma: simulated or copied. Readings
+    of a display whose step exceeds sigma repeat themselves.
     """
     numbers = recording.steady.repeats
     for name in OUTPUTS:
@@ -135,7 +136,9 @@ def noiseless(recording: Recording) -> Iterator[DataNote]:
         if channel is None or not known.any():
             continue
         if not np.any(reading_sigma(channel, values[known]) > 0.0):
-            yield DataNote(NoteKind.FAULT, name, (), f"{name.value} states a repeatability of 0, which no sensor has")
+            states = "repeats itself with" if "sigma" in channel.assumed else "states"
+            text = f"{name.value} {states} a repeatability of 0, which no sensor has"
+            yield DataNote(NoteKind.FAULT, name, (), text + "; state its sigma, of a coarse display its quantum")
             continue
         _, place = np.unique(numbers[known], return_inverse=True)
         count = np.bincount(place)
@@ -144,7 +147,7 @@ def noiseless(recording: Recording) -> Iterator[DataNote]:
             continue
         deviation = values[known] - (np.bincount(place, weights=values[known]) / count)[place]
         sigma = float(np.mean(reading_sigma(channel, values[known])))
-        if np.sqrt(np.sum(deviation**2) / free) < 0.01 * sigma:
+        if np.sqrt(np.sum(deviation**2) / free) < STILL * sigma and channel.quantum <= sigma:
             text = f"{name.value} repeats itself without noise at {free} repeated points: is it measured?"
             yield DataNote(NoteKind.FAULT, name, (), text)
 

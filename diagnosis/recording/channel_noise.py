@@ -17,6 +17,8 @@ ZERO_SHARE = 0.5  # of the largest reading's limit: share of a class for the zer
 SETTING_SHARE = 5e-4  # of full displacement: assumed accuracy of a set swash angle
 ENCODER = math.radians(0.3)
 FEWEST_READINGS = 20  # different readings from which a step is derived
+FEWEST_COARSE = 5  # the same of a display that repeats show to be coarse
+STILL = 0.01  # of one sigma: repeats that scatter by less are those of a coarse display, or of no meter
 
 # Limits of the classes A, B, C of ISO 4409 as they are commonly quoted. The standard's own table was not available for
 # comparison: an important calibration is better stated by the recording than by a class.
@@ -46,7 +48,7 @@ def recorded_channel(form: ChannelForm, readings: Array, found: float | None) ->
     quantum = form.quantum
     commanded = form.name is ChannelName.DISPLACEMENT_RATIO and sigma == 0.0
     if quantum is None:
-        quantum = 0.0 if commanded else reading_step(readings, form)  # round levels are no steps of a reading
+        quantum = 0.0 if commanded else _shown_step(readings, form, found)
         assumed += ["quantum"] if quantum else []
     gain, zero = form.gain, form.zero
     usual_gain, usual_zero = _calibration(form, sigma, relative, readings)
@@ -66,14 +68,28 @@ def recorded_channel(form: ChannelForm, readings: Array, found: float | None) ->
     )
 
 
-def reading_step(readings: Array, form: ChannelForm) -> float:
+def _shown_step(readings: Array, form: ChannelForm, found: float | None) -> float:
+    """The step of a channel's readings in SI, or 0: of few different ones where it exceeds sigma and repeats agree.
+
+    Else round levels are no steps of a reading. found: scatter of the repeats.
+    """
+    step = reading_step(readings, form)
+    if step > 0.0 or found is None:
+        return step
+    sigma, relative = form.repeatability
+    sigma += relative * float(np.nanmedian(np.abs(readings)))
+    coarse = reading_step(readings, form, FEWEST_COARSE)
+    return coarse if found < STILL * sigma < STILL * coarse else 0.0
+
+
+def reading_step(readings: Array, form: ChannelForm, fewest: int = FEWEST_READINGS) -> float:
     """Return the step of a channel's readings in SI, or 0.
 
     The largest of 1, 2, 2.5 and 5 times a power of ten, in the file's unit, of which every reading is a multiple;
-    from at least `FEWEST_READINGS` different ones.
+    from at least `fewest` different ones.
     """
     known = np.unique(readings[np.isfinite(readings)])
-    if len(known) < FEWEST_READINGS:
+    if len(known) < fewest:
         return 0.0
     numbers = (known - form.offset) / form.factor
     top = math.floor(math.log10(max(float(np.max(np.abs(numbers))), 1e-300)))

@@ -18,16 +18,15 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import logsumexp
 
+from diagnosis.recording.line_pressures import varied_lines
 from diagnosis.recording.model import Recording
-from diagnosis.study.map_axes import axis_values, moves, on_axis
+from diagnosis.study.map_axes import axis_values, on_axis
 from reynolds.numerics.arrays import Array
 from system.estimation.evidence import family_evidences, taken_up
 from system.estimation.folds import levels
 from system.estimation.posterior import Posterior
 from system.inputs.channels import ChannelName
 
-FURTHER = (ChannelName.P_IN, ChannelName.P_CASE)
-"""Inputs beside the axes of the map."""
 MOST = 4
 """Inputs of a polynomial."""
 COSINES = 12
@@ -101,8 +100,7 @@ def departure_evidence(posterior: Posterior, law: Array, shapes: Shapes, widths:
 
 def _inputs(recording: Recording) -> Mapping[ChannelName, Array]:
     """Inputs that move, each (N,) in SI."""
-    further = {name: recording.steady.column(name) for name in FURTHER}
-    return {**axis_values(recording), **{name: values for name, values in further.items() if moves(name, values)}}
+    return {**axis_values(recording), **{name: recording.steady.column(name) for name in varied_lines(recording)}}
 
 
 def _monomials(scaled: Sequence[Array], count: int) -> tuple[list[Array], dict[tuple[int, ...], int]]:

@@ -22,7 +22,7 @@ def axis_values(recording: Recording) -> Mapping[ChannelName, Array]:
     """The axes along which the recording varies, each (N,) in SI."""
     order = list(ChannelName)
     columns = {axis: recording.steady.values[:, order.index(axis)] for axis in AXES}
-    return {axis: values for axis, values in columns.items() if moves(axis, values)}
+    return {axis: values for axis, values in columns.items() if _moves(axis, values)}
 
 
 def scaled_axes(recording: Recording) -> Array:
@@ -71,8 +71,8 @@ def inside(
     return within
 
 
-def moves(axis: ChannelName, values: Array) -> bool:
-    """True if an input moves by more than the scatter of one set point, and is known at all points."""
+def _moves(axis: ChannelName, values: Array) -> bool:
+    """True if an axis moves by more than the scatter of one set point, and is known at all points."""
     if not np.all(np.isfinite(values)):
         return False
     least = LEAST_WARMING if axis is ChannelName.T_CASE else LEAST_SPAN * float(np.abs(values).max())

@@ -14,8 +14,12 @@ from diagnosis import (
     TraceBlock,
     check_recording,
     load_thresholds,
+    read_recording,
 )
 from diagnosis.checks.check import too_few
+from diagnosis.checks.outliers import scaled_places
+from diagnosis.recording.line_pressures import varied_lines
+from diagnosis.study.departures import departure_shapes
 from system import INPUTS, OUTPUTS, ChannelName, Dimension
 from system.inputs.units import parse_quantity
 
@@ -286,6 +290,86 @@ def test_copies_and_readings_without_noise_are_faults():
     assert found == {ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE}
 
 
+@pytest.mark.parametrize("further", [(), ("Q_slipper",), ("Q_slipper", "Q_piston")])
+def test_a_flow_of_the_balance_that_is_computed_is_told_beside_drains_of_gaps(further):
+    """The case drain as inlet less delivery; a gap's own drain is no part of the balance, and is not named."""
+    recording = _sound()
+    values = recording.steady.values.copy()
+    column = {name: values[:, COLUMNS[ChannelName.named(name)]] for name in ("Q_in", "Q_out", "Q_case")}
+    drains = np.random.default_rng(3).uniform(0.2, 0.4, (len(further), len(values))) * column["Q_case"]
+    values[:, COLUMNS[ChannelName.Q_CASE]] = column["Q_in"] - column["Q_out"]
+    of_flow = recording.channel(ChannelName.Q_CASE)
+    more = tuple(replace(of_flow, name=ChannelName.named(one), column=one) for one in further)
+    for one, drain in zip(further, drains, strict=True):
+        values[:, COLUMNS[ChannelName.named(one)]] = drain
+    steady = replace(recording.steady, values=values)
+    told = _told(replace(recording, steady=steady, channels=(*recording.channels, *more)))
+    assert [text for _, _, text in told if "one is computed" in text] == [
+        "Q_out, Q_in, Q_case depend on each other without noise: one is computed; leave it out of [channel]"
+    ]
+
+
+COARSE = """format = 1
+pressure_reference = "gauge"
+[steady]
+file = "steady.csv"
+repeats = "k"
+[channel]
+p_out = { column = "p", unit = "bar", sigma = 0.1 }
+torque = { column = "M", unit = "N m", sigma = 0.1, more }
+"""
+
+
+def _thrice(folder, step, more=""):
+    """Notes on five set points read three times; the torque, which scatters by .1 N m, shown in steps."""
+    rng = np.random.default_rng(8)
+    torque = np.repeat([71.0, 143.0, 208.0, 275.0, 339.0], 3) + 0.1 * rng.standard_normal(15)
+    pressure = np.repeat([50.0, 100.0, 150.0, 200.0, 250.0], 3) + 0.1 * rng.standard_normal(15)
+    shown = step * np.round((np.repeat(torque[::3], 3) if step < 0.1 else torque) / step)
+    rows = [f"{k // 3},{p:.2f},{m:.4f}" for k, (p, m) in enumerate(zip(pressure, shown, strict=True))]
+    (folder / "steady.csv").write_text("k,p,M\n" + "\n".join(rows), "utf-8")
+    (folder / "recording.toml").write_text(COARSE.replace(", more", more), "utf-8")
+    recording = read_recording(folder)
+    return recording.channel(ChannelName.TORQUE), [text for _, _, text in _told(recording)]
+
+
+@pytest.mark.parametrize("more", ["", ", quantum = 1"])
+def test_repeats_on_a_coarse_display_are_alike(tmp_path, more):
+    """Its step is that of the readings, stated or not, and the noise is that of the step."""
+    channel, told = _thrice(tmp_path, 1.0, more)
+    assert channel.quantum == 1.0
+    assert not any("without noise" in text for text in told)
+
+
+def test_repeats_with_finer_digits_than_their_noise_are_not_measured(tmp_path):
+    assert any("torque repeats itself without noise" in text for text in _thrice(tmp_path, 0.001)[1])
+
+
+@pytest.mark.parametrize(
+    ("name", "middle", "swing", "sigma", "varies"),
+    [
+        ("p_in", 0.0, 500.0, 1e3, False),
+        ("p_in", 25e5, 1e4, 1e3, False),
+        ("p_in", 0.0, 2e4, 2e4, False),
+        ("p_in", 0.0, 2e4, 5e2, True),
+        ("p_case", 2e5, 1e5, 1e3, True),
+        ("p_case", -5e4, 2e4, 1e3, True),
+    ],
+)
+def test_the_pressure_of_a_line_varies_beyond_its_control_and_its_scatter(name, middle, swing, sigma, varies):
+    """Of the absolute pressure, in the checks as in the study: +-.005 bar about 0 gauge is no input that moves."""
+    recording = _sound()
+    place = COLUMNS[ChannelName.named(name)]
+    values = recording.steady.values.copy()
+    values[:, place] = middle + swing * np.cos(7.0 * np.arange(len(values)))
+    channels = tuple(replace(one, sigma=sigma) if one.name.value == name else one for one in recording.channels)
+    changed = replace(recording, steady=replace(recording.steady, values=values), channels=channels)
+    assert (ChannelName.named(name) in varied_lines(changed)) is varies
+    of_study = {one for family in departure_shapes(changed).families for one in family.inputs}
+    assert (ChannelName.named(name) in of_study) is varies
+    assert scaled_places(changed).shape[1] - 4 == len(varied_lines(changed))
+
+
 def test_an_output_without_noise_is_a_fault():
     recording = _sound()
     perfect = tuple(replace(c, sigma=0.0) if c.name is ChannelName.TORQUE else c for c in recording.channels)
@@ -303,6 +387,8 @@ def test_gaps_and_too_few_readings_are_told():
     assert (kind, channel) == (NoteKind.NOTED, ChannelName.Q_CASE)
     assert "2 of 96" in text
     count = 4 * 96
+    warm = _with("T_out", lambda _: _sound().steady.column(ChannelName.T_CASE))
+    assert too_few(warm, count) is not None  # an outlet temperature is not simulated
     assert too_few(_sound(), count - 1) is None
     fault = too_few(_sound(), count)
     assert fault is not None
