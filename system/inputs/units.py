@@ -238,14 +238,17 @@ def _unit_for(text: str, dimension: Dimension) -> Unit | None:
 
 
 def _with_unit(number: str, dimension: Dimension, example: str) -> str:
-    """Return a number with the unit that it may lack: the one in which it is nearest to the usual value, `example`."""
+    """Return a number with the unit that it may lack: the one in which it is nearest to the usual value, `example`.
+
+    The SI unit is one of them: 0.01 of a length is "0.01 m", 22 is "22 mm".
+    """
     usual, shown = parse_quantity(example, dimension), number.removesuffix(".0")
 
     def away(unit: str) -> float:
         value = float(_in_si(number, _unit_of(unit), dimension))
         return abs(math.log(value / usual)) if value > 0.0 < usual else 0.0
 
-    return f"{shown} {min((unit_in(example), *dimension.reading_units), key=away)}"
+    return f"{shown} {min((unit_in(example), *dimension.reading_units, dimension.si_unit), key=away)}"
 
 
 def _gauge_meant(number: str, unit_text: str, dimension: Dimension) -> str:

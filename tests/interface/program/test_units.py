@@ -142,6 +142,9 @@ def test_an_absolute_pressure_gets_its_gauge_pressure_as_remedy(text, gauge):
         ("28", "350 bar", "'28 MPa'"),
         ("280", "350 bar", "'280 bar'"),
         ("0", "14 um", "'0 um'"),
+        (0.01, "22 mm", "'0.01 m'"),
+        (0.001, "22 mm", "'0.001 m'"),
+        (1e-5, "14 um", "'1e-05 m'"),
     ],
 )
 def test_a_bare_number_gets_the_unit_in_which_it_is_nearest_to_the_usual_value(text, example, meant):
