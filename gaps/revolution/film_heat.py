@@ -192,7 +192,7 @@ class _Warming(Generic[Reported]):
             film=self._over_turn([one.heat.mean for one in films]),
             walls=self._walls,
             mean=np.array([_mean(one) for one in films]),
-            hottest=np.array([one.heat.temperature.max() for one in films]),
+            hottest=np.array([one.heat.highest.max() for one in films]),
             flows=self._flows(rubbing),
             change=float(np.sqrt(np.mean(change**2))),
             rounds=rounds,

@@ -133,6 +133,11 @@ class FilmTemperature:
         return self.profile.levels.mean(self.temperature)
 
     @property
+    def highest(self) -> Array:
+        """Maximum over the thickness (size,) K, walls included, of the profile (`FilmLevels.highest`)."""
+        return self.profile.levels.highest(self.temperature)
+
+    @property
     def fixed_wall(self) -> Array:
         """Temperature of the fixed wall's surface (size,) K."""
         return self.temperature[:, 0]

@@ -56,9 +56,10 @@ def _hottest(history: Sequence[Moment]) -> list[float]:
 def _heat_summary(study: FilmStudy) -> dict[str, Any]:
     heat, space = study.heat, study.solution.problem.space
     assert heat is not None
-    hottest = int(np.argmax(heat.temperature.max(axis=1)[space.vertex_dofs]))
+    highest = heat.highest
+    hottest = int(np.argmax(highest[space.vertex_dofs]))
     return {
-        "temperature_max_K": float(heat.temperature.max()),
+        "temperature_max_K": float(highest.max()),
         "temperature_max_at_m": [float(part) for part in space.vertices[hottest]],
         "temperature_mean_K": float(np.average(heat.mean, weights=space.lumped(np.ones(space.area.shape)))),
         "wall_heat_W": {"fixed": heat.to_fixed, "moving": heat.to_moving},

@@ -67,7 +67,7 @@ def transient(stated: FilmStatement, report: Report) -> list[Moment]:
         held = oil_held(first, np.minimum(filled, 1.0))  # the mean of ones may exceed one by round-off
         for instant in oil_solver(stated, space).march(problem_at, stated.time.end, stated.time.step_taken, held):
             film, heat = film_of(instant.solution), heat_of(instant.solution)
-            hottest = None if heat is None else float(heat.temperature.max())
+            hottest = None if heat is None else float(heat.highest.max())
             is_kept = stated.time.is_output(instant.time, instant.step)
             bearing = bearing_load(film) if stated.film.geometry is Geometry.CYLINDER else None
             found.append(

@@ -105,6 +105,32 @@ def test_isoviscous_couette(validation):
     )
 
 
+@pytest.mark.parametrize("count", [2, 3, 4, 5, 6, 9, 12])
+def test_the_highest_temperature_is_that_of_the_profile_at_any_number_of_levels(count):
+    """Between walls at one temperature the middle is warmer by mu U^2/(8 k), whether or not a level lies there."""
+    wall = GivenTemperature(INLET)
+    found = solve_thermal(couette(endless(), {"bottom": 0.0, "top": 0.0}), oil_heat(wall, wall), thinning(0.0), count=count)
+    exact = VISCOSITY * SPEED**2 / (8.0 * CONDUCTIVITY)
+    np.testing.assert_allclose(found.heat.highest - INLET, exact, rtol=1e-6)
+
+
+@pytest.mark.parametrize("count", [4, 6, 9, 20])
+def test_an_overshoot_beside_a_jump_is_no_temperature(count):
+    """Uniform inflow between cold walls is as hot as it comes in, though its polynomial exceeds it by a fifth."""
+    across = levels(count)
+    field = np.ones((1, count + 2))
+    field[0, [0, -1]] = 0.0
+    assert across.at(field, np.linspace(0.0, 1.0, 500)).max() > 1.05
+    assert across.highest(field) == pytest.approx(1.0)
+
+
+def test_the_highest_place_may_lie_anywhere_across():
+    across = levels(6)
+    peaks = np.linspace(0.0, 1.0, 101)
+    field = 3.0 - 8.0 * (across.place - peaks[:, None]) ** 2
+    np.testing.assert_allclose(across.highest(field), 3.0, rtol=1e-6)
+
+
 def _nahme(count: int) -> tuple[float, float]:
     """Stress over that of the cold oil, and beta times the largest rise, between walls at one temperature."""
     heat = oil_heat(GivenTemperature(INLET), GivenTemperature(INLET))
