@@ -23,6 +23,7 @@ from system import BenchPoints, ChannelName, EffectId, LumpedBench, entry_of, lo
 
 PUMP = load_pump("ref90")
 EXAMPLES = Path(__file__).resolve().parents[3] / "examples" / "recordings"
+BENCH_PUMP = EXAMPLES / "bench_pump.toml"
 READ = (ChannelName.Q_OUT, ChannelName.Q_CASE, ChannelName.TORQUE)
 NOISE = np.array([0.1, 0.015, 0.3])  # L/min, L/min, N m
 CHURNING = entry_of(EffectId.CHURNING).extensions[0]
@@ -201,7 +202,7 @@ def test_the_nearest_recording_is_told(tmp_path: Path, capsys: pytest.CaptureFix
 def test_walls_as_the_film_solver_has_them_are_found_by_two_processes(tmp_path: Path) -> None:
     """The finding is a share of the computed compliance, in a pump that runs to it."""
     out = tmp_path / "out"
-    words = ["diagnose", "ref90", str(EXAMPLES / "open-04"), "--film-tables", "--workers", "2", "-o", str(out)]
+    words = ["diagnose", str(BENCH_PUMP), str(EXAMPLES / "open-04"), "--film-tables", "--workers", "2", "-o", str(out)]
     assert main(words) == 0
     (told,) = json.loads((out / "diagnosis.json").read_text("utf-8"))["effects"]
     assert (told["id"], told["pair"]) == ("elastic_opening", "slipper")
@@ -218,7 +219,7 @@ def test_walls_as_the_film_solver_has_them_are_found_by_two_processes(tmp_path: 
 def test_the_front_door_diagnoses_and_opens_the_same(tmp_path):
     import swashfilm as sf
 
-    found = sf.diagnose("ref90", EXAMPLES / "open-06", workers=1)
+    found = sf.diagnose(BENCH_PUMP, EXAMPLES / "open-06", workers=1)
     assert found.effects[0]["id"] == "port_short_circuit"
     assert found.statement in repr(found)
     assert found.plot_evidence()
