@@ -73,8 +73,9 @@ def main() -> None:
     point = found.pump_point
     leakage = 6e4 * point.leakage_flow.total
     console.print(rounds_of(found), gaps_of(found))
+    clock = "from start to end" if asked.beside else "of one processor"
     console.print(
-        f"{seconds:.1f} s {'from start to end' if asked.beside else 'of one processor'}; leakage {leakage:.4f} L/min, friction {point.power.friction:.1f} W, "
+        f"{seconds:.1f} s {clock}; leakage {leakage:.4f} L/min, friction {point.power.friction:.1f} W, "
         f"energy not balanced {point.checks.energy_balance_error:.1e}"
     )
 
