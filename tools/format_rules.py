@@ -30,6 +30,7 @@ FREE = (
     "diagnosis.json/mismatch/channels",
     "study.nc/variables",
     "history.csv",
+    "refinement.csv",
     "study.csv",
     "designs.csv",
     "pareto.csv",

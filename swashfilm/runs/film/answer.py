@@ -6,8 +6,9 @@ from collections.abc import Container, Iterator, Mapping
 from typing import Any
 
 from swashfilm.output.answer import Tile
+from swashfilm.output.headline import named, summary_scales
 from swashfilm.output.refinement import bar_text
-from system.inputs.shown import quantity_text
+from system.inputs.shown import quantity_text, round_off
 from system.inputs.units import Dimension
 
 DIGITS = 4
@@ -35,10 +36,16 @@ def film_tiles(summary: Mapping[str, Any]) -> Iterator[Tile]:
         ("hottest oil", "temperature_max_K", Dimension.TEMPERATURE),
     ):
         if key in summary:
-            note = _coefficient(summary) if dimension is Dimension.POWER else ""
-            if key == "leakage_flow_m3_per_s" and summary[key] < 0.0:
+            note, value = _coefficient(summary) if dimension is Dimension.POWER else "", counted(summary, key)
+            if key == "leakage_flow_m3_per_s" and value < 0.0:
                 note = "negative: the film draws oil in"
-            yield Tile(amount(summary[key], dimension), name, _note(summary, key, dimension, note))
+            yield Tile(amount(value, dimension), name, _note(summary, key, dimension, note))
+
+
+def counted(summary: Mapping[str, Any], key: str) -> float:
+    """Return the number of a key, 0 where it is round-off beside the film's numbers of its unit."""
+    value = float(summary[key])
+    return value if abs(value) >= round_off(key, named(key)[1], summary_scales(summary)) else 0.0
 
 
 def carried_key(numbers: Container[str]) -> str:
@@ -90,7 +97,7 @@ def _attitude(summary: Mapping[str, Any]) -> str:
 def _flow_words(summary: Mapping[str, Any]) -> str:
     least, pressure = summary["film_thickness_min_m"], summary["pressure_max_Pa"]
     key = "friction_power_W" if "friction_power_W" in summary else "dissipation_W"
-    leak = leak_words(summary["leakage_flow_m3_per_s"])
+    leak = leak_words(counted(summary, "leakage_flow_m3_per_s"))
     return (
         f"It is {amount(least, Dimension.LENGTH)} thick at its thinnest place, and its pressure reaches "
         f"{amount(pressure, Dimension.PRESSURE)}. {leak}, and {amount(summary[key], Dimension.POWER)} are lost to "

@@ -22,7 +22,7 @@ from swashfilm.runs.film.validity import film_warnings
 if TYPE_CHECKING:
     import xarray
 
-_SCALE_UNITS = {"moment": "Nm", "friction": "N", "torque": "Nm"}
+_SCALE_UNITS = {"moment": "Nm", "friction": "N", "torque": "Nm", "flow": "m3_per_s"}
 LARGEST_COEFFICIENT = 1e6  # of friction; beyond, the load is round-off of the solver, as for a parallel film
 
 
@@ -74,7 +74,7 @@ def _bearing(load: BearingLoad) -> dict[str, float]:
 
 
 def natural_sizes(solution: FilmSolution) -> dict[str, float]:
-    """Return sizes of moments, torques (N m) and wall forces (N) without cancellation by symmetry."""
+    """Return sizes of moments, torques (N m) and wall forces (N) without cancellation by symmetry, and of flows (m3/s)."""
     space = solution.problem.space
     fields = point_fields(solution)
     reach = float(np.abs(space.vertices).max())
@@ -84,7 +84,23 @@ def natural_sizes(solution: FilmSolution) -> dict[str, float]:
         "moment": reach * float(np.sum(np.abs(fields.pressure) * space.area)),
         "friction": friction,
         "torque": reach * friction,
+        "flow": natural_flow(solution),
     }
+
+
+def natural_flow(solution: FilmSolution) -> float:
+    """Return the size of flows within a film, m3/s: U h L of its walls, h^3 dp/(12 mu), and of its squeeze.
+
+    L is the root of the film's area, dp the range of its pressure; U h and h^3/mu are means over the film.
+    """
+    film, area = solution.film, solution.problem.space.area
+    total = float(area.sum())
+    sliding = sum(
+        float(np.sum(np.hypot(*wall) * film.thickness * area)) for wall in (film.velocity_moving, film.velocity_fixed)
+    )
+    conductance = float(np.sum(film.thickness**3 / (12.0 * film.viscosity) * area)) / total
+    squeezed = float(np.abs(solution.storage_rate).sum())
+    return sliding / np.sqrt(total) + conductance * float(np.ptp(solution.pressure)) + squeezed
 
 
 def _stribeck(solution: FilmSolution, supported: float) -> dict[str, float | None]:

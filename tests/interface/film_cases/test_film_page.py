@@ -71,6 +71,34 @@ def test_words_tell_what_limits_a_film(more, words):
     assert all(tile.value for tile in film_tiles(FILM | more))
 
 
+STARVED = """
+format = 1
+[film]
+mesh = { kind = "rectangle", size = ["157.07963 mm", "6.25 mm"], cells = [32, 4], periodic = "x", cell = "quadrilateral" }
+thickness = "50e-6*(1 + 0.6*cos(x/0.025))"
+velocity = ["2.5 m/s", "0 m/s"]
+viscosity = "30 mPa s"
+geometry = "cylinder"
+[boundary]
+bottom = { pressure = "0 bar" }
+top = { pressure = "0 bar" }
+"""
+
+
+def test_flows_that_are_all_round_off_are_none(tmp_path):
+    """A journal whose cavity takes all: nothing passes its ends, beside 0.05 L/min around the shaft."""
+    (tmp_path / "starved.toml").write_text(STARVED, encoding="utf-8")
+    assert main(["film", str(tmp_path / "starved.toml"), "--refine", "3", "-o", str(tmp_path / "run")]) == 0
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text("utf-8"))
+    around = 2.5 * 50e-6 * (0.15707963 * 0.00625) ** 0.5
+    assert summary["scale"]["flow_m3_per_s"] == pytest.approx(around, rel=0.02)
+    assert abs(summary["leakage_flow_m3_per_s"]) < 1e-12 * around
+    assert "Nothing leaks out" in film_words(summary)
+    assert next(tile.value for tile in film_tiles(summary) if tile.name == "leakage").startswith("0 ")
+    flow = summary["refinement"]["numbers"]["leakage_flow_m3_per_s"]
+    assert flow["verdict"] == "converged to round-off"
+
+
 def test_a_turn_tells_its_thinnest_place_and_a_leakage_that_flows_in():
     words = revolution_words(TURN)
     assert "thinnest at 255 deg of shaft angle: 3 um" in words
