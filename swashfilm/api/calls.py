@@ -39,7 +39,9 @@ def words_of(command: str, positional: Sequence[object], given: Mapping[str, obj
         if value is True:
             words.append(option)
         elif isinstance(value, Mapping):
-            words += [f"{option}={key}={one}" for key, one in value.items()]
+            from swashfilm.api.tables import settings_of_file
+
+            words += [f"{option}={key}={one}" for key, one in settings_of_file(value).items()]
         elif isinstance(value, list) and name == "limit":
             words += [f"{option}={one}" for one in value]
         elif value is not None and value is not False:

@@ -6,15 +6,18 @@ import re
 import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+from system.inputs.faults import InputFaults
 
 if TYPE_CHECKING:
     from swashfilm.runs.map.result import MapRun
     from system.description.pump import PumpDescription
 
 Case = str | Path | Mapping[str, Any]
-"""Path of a case file, its text, or its tables."""
+"""Path of a case file, its text, or its tables, numbers in SI."""
 
 
 @contextmanager
@@ -31,16 +34,36 @@ def pump_path(pump: str | Path | PumpDescription) -> Iterator[str]:
 
 @contextmanager
 def case_path(case: Case) -> Iterator[Path]:
-    """Yield the path of a case; text and tables are written to a temporary file."""
-    if isinstance(case, Mapping):
-        import tomli_w
+    """Yield the path of a case; text and tables are written to a temporary file.
 
-        case = tomli_w.dumps(case)
-    if isinstance(case, str) and "\n" in case:
-        with _written("case.toml", case) as path:
-            yield path
+    Relative paths in them count from the working directory; numbers of tables are in SI. Faults are those of "case",
+    of tables without lines.
+    """
+    if isinstance(case, Path) or (isinstance(case, str) and "\n" not in case):
+        yield Path(case)
         return
-    yield Path(case)
+    import tomli_w
+
+    from swashfilm.api.tables import tables_of_file, text_of_file
+
+    here, is_text = Path.cwd(), isinstance(case, str)
+    text = text_of_file(case, here) if isinstance(case, str) else tomli_w.dumps(tables_of_file(case, here))
+    with _written("case.toml", text) as path:
+        try:
+            yield path
+        except InputFaults as reason:
+            raise _of_case(reason, str(path), with_lines=is_text) from None
+
+
+def _of_case(reason: InputFaults, path: str, *, with_lines: bool) -> InputFaults:
+    """Return faults of a temporary case file as those of the case."""
+    if reason.source != path:
+        return reason
+    faults = [
+        replace(one, found=one.found.replace(path, "case"), nearest=one.nearest.replace(path, "CASE.toml"))
+        for one in reason.faults
+    ]
+    return InputFaults("case", faults, reason.lines if with_lines else {})
 
 
 @contextmanager

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 from swashfilm.api.calls import Quantity, door, words_of
 from swashfilm.api.given import pump_path
 from system.inputs.faults import Fault, InputFaults
-from system.pump_file.file import load_pump as load_pump
 from system.work.progress import Report, silent
 
 if TYPE_CHECKING:
@@ -17,6 +16,17 @@ if TYPE_CHECKING:
     from swashfilm.runs.pump.vary.result import VariedRun
     from swashfilm.runs.table.result import TableRun
     from system.description.pump import PumpDescription
+
+
+def load_pump(source: str | Path, overrides: Mapping[str, object] | None = None) -> PumpDescription:
+    """Return the description of a built-in pump (by name) or of a pump file (by path), in SI.
+
+    overrides: values in place of the file's, {"operating.speed": "1500 rpm"}; numbers are in SI. Raises InputFaults.
+    """
+    from swashfilm.api.tables import settings_of_file
+    from system.pump_file.file import load_pump as loaded
+
+    return loaded(source, settings_of_file(overrides or {}))
 
 
 def run(
