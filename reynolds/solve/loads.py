@@ -194,7 +194,7 @@ def boundary_flows(solution: FilmSolution) -> dict[str, float]:
 def _edge_flows(solution: FilmSolution) -> tuple[dict[str, float], float]:
     """Flow through each named boundary, and the cavity's supply (<= 0) under Reynolds' condition at boundaries."""
     space = solution.problem.space
-    couette = _couette_through(solution)
+    couette = couette_through(solution)
     length, rest = np.zeros(space.size), solution.outflow.copy()
     for name, across in couette.items():
         length[space.edge_dofs[name]] += space.edge_share[name]
@@ -221,8 +221,8 @@ def _counted_by_another(solution: FilmSolution, name: str) -> bool:
     return not solution.problem.space.film_mesh.sharing[name].isdisjoint(conditions)
 
 
-def _couette_through(solution: FilmSolution) -> dict[str, Array]:
-    """Couette flow (m3/s, positive out) at each unknown of each boundary with a condition."""
+def couette_through(solution: FilmSolution) -> dict[str, Array]:
+    """Couette flow (m3/s, positive out) at each unknown of each boundary with a condition, by its name."""
     space = solution.problem.space
     nodal = solution.film_fraction[:, None] * np.column_stack([space.to_unknowns(f) for f in solution.flux])
     return {

@@ -13,6 +13,7 @@ from reynolds.solve.loads import point_fields
 from swashfilm.case.tables.film import Geometry
 from swashfilm.formats.versions import headed
 from swashfilm.runs.film.physics import physics_summary, temperatures
+from swashfilm.runs.film.scale import natural_sizes
 from swashfilm.runs.film.sensitivity import sensitivity_fields, sensitivity_summary
 from swashfilm.runs.film.solve.gap import gap_summary
 from swashfilm.runs.film.solve.loaded import load_summary
@@ -71,36 +72,6 @@ def film_summary(study: FilmStudy) -> dict[str, Any]:
 
 def _bearing(load: BearingLoad) -> dict[str, float]:
     return {"bearing_load_N": load.size, "attitude_angle_deg": float(np.degrees(load.attitude))}
-
-
-def natural_sizes(solution: FilmSolution) -> dict[str, float]:
-    """Return sizes of moments, torques (N m) and wall forces (N) without cancellation by symmetry, and of flows (m3/s)."""
-    space = solution.problem.space
-    fields = point_fields(solution)
-    reach = float(np.abs(space.vertices).max())
-    shear = (*fields.shear_moving, *fields.shear_fixed)
-    friction = float(sum(np.sum(np.abs(part) * space.area) for part in shear))
-    return {
-        "moment": reach * float(np.sum(np.abs(fields.pressure) * space.area)),
-        "friction": friction,
-        "torque": reach * friction,
-        "flow": natural_flow(solution),
-    }
-
-
-def natural_flow(solution: FilmSolution) -> float:
-    """Return the size of flows within a film, m3/s: U h L of its walls, h^3 dp/(12 mu), and of its squeeze.
-
-    L is the root of the film's area, dp the range of its pressure; U h and h^3/mu are means over the film.
-    """
-    film, area = solution.film, solution.problem.space.area
-    total = float(area.sum())
-    sliding = sum(
-        float(np.sum(np.hypot(*wall) * film.thickness * area)) for wall in (film.velocity_moving, film.velocity_fixed)
-    )
-    conductance = float(np.sum(film.thickness**3 / (12.0 * film.viscosity) * area)) / total
-    squeezed = float(np.abs(solution.storage_rate).sum())
-    return sliding / np.sqrt(total) + conductance * float(np.ptp(solution.pressure)) + squeezed
 
 
 def _stribeck(solution: FilmSolution, supported: float) -> dict[str, float | None]:

@@ -10,10 +10,11 @@ import numpy as np
 from reynolds.laws.contact import lambda_ratio
 from reynolds.laws.fluid import isoviscous
 from reynolds.laws.roughness import beyond_range
-from reynolds.problem import Cavitation, FilmSolution
-from reynolds.solve.loads import dissipated
+from reynolds.problem import Cavitation, FilmSolution, Pocket
+from reynolds.solve.loads import couette_through, dissipated
 from reynolds.solve.rubbing import rubbing
 from swashfilm.runs.film.extent import Warned, extent_warnings
+from swashfilm.runs.film.scale import natural_sizes
 from swashfilm.runs.film.solve.gap import gap_warnings
 from system.inputs.shown import pressure_text
 
@@ -30,6 +31,8 @@ HOTTEST = 393.15  # K (120 degC), above which mineral oils age within hours
 HEAT_CAPACITY = 1.7e6  # J/(m3 K), of mineral oils
 CONDUCTIVITY = 0.13  # W/(m K), of mineral oils
 LEAST_FILM_FRACTION = 1e-3
+LEAST_INFLOW = 1e-6  # of the flows within the film; less is round-off of the edges' directions
+MOST_CAVITY = 0.5  # of the film's area, beside which a film without pressure of its own is no seal with a cavity
 VACUUM = -101325.0  # Pa, gauge
 LEAST_LAMBDA = 1.0  # h/sigma; below, contacts support most of the load
 LARGEST_ISOVISCOUS_PRESSURE = 50e6  # Pa; the viscosity of a mineral oil is about three times its low-pressure value
@@ -207,8 +210,10 @@ def beyond_oil(highest: float) -> Warned:
 
 
 def _supply_warnings(study: FilmStudy) -> Iterator[Warned]:
-    """Yield warnings of a starved film, and of a cavitation pressure below vacuum."""
+    """Yield warnings of a starved film, of one without supply, and of a cavitation pressure below vacuum."""
     problem, least = study.solution.problem, float(study.solution.film_fraction.min())
+    if study.gap is None and not study.history and study.solution.cavity.any():
+        yield from _cavity_warnings(study)
     if study.gap is None and not study.history and least < LEAST_FILM_FRACTION:
         yield (
             "film_runs_dry",
@@ -220,4 +225,30 @@ def _supply_warnings(study: FilmStudy) -> Iterator[Warned]:
             "cavitation_below_vacuum",
             f"the cavitation pressure is {pressure_text(problem.cavitation_pressure, 4)} gauge (vacuum: "
             f"{pressure_text(VACUUM, 4)}): oil cavitates before; is the value absolute, not gauge?",
+        )
+
+
+def _cavity_warnings(study: FilmStudy) -> Iterator[Warned]:
+    """Yield warnings of a steady free film whose cavity nothing fills, and of one that bears no pressure of its own."""
+    solution, share = study.solution, study.loads.cavitated_area_fraction
+    problem, level = solution.problem, solution.problem.cavitation_pressure
+    given = float(np.max(solution.pressure[solution.held], initial=level))
+    fed = any(isinstance(condition, Pocket) for condition in problem.boundary.values())
+    # At the cavitation pressure, the least of the film, oil enters with a wall's motion alone.
+    entering = sum(float(-np.minimum(flow, 0.0).sum()) for flow in couette_through(solution).values())
+    closed = entering <= LEAST_INFLOW * natural_sizes(solution)["flow"]
+    if problem.cavitation is Cavitation.JFO and given <= level and closed and not fed:
+        yield (
+            "film_without_supply",
+            f"{share:.0%} of the film cavitates, no boundary is above the cavitation pressure and no oil enters: the "
+            "oil that this steady film holds is arbitrary, and its pressure and load fall with every finer mesh; add a "
+            "supply (a groove or an edge held above it), a cavitation pressure below ambient ('-0.7 bar'), [time] from "
+            "a known filling, or cavitation = 'reynolds', which feeds the film as a flooded one",
+        )
+    elif share > MOST_CAVITY and float(solution.pressure.max()) <= given:
+        yield (
+            "film_builds_no_pressure",
+            f"{share:.0%} of the film cavitates (limit {MOST_CAVITY:.0%}) and nowhere is it above the pressure of its "
+            f"boundaries, {pressure_text(given)}: it bears nothing of its own; is the sign of the velocity right? A "
+            "film has to become thinner along the motion of the wall that slides",
         )

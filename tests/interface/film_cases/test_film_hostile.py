@@ -196,6 +196,24 @@ def test_a_film_whose_inlet_is_closed_is_told_to_run_dry(tmp_path):
     assert "film_runs_dry" not in named(summary_of(tmp_path / "fed.toml", CASE))
 
 
+def test_a_journal_without_supply_is_told_that_its_load_is_the_meshs(tmp_path):
+    journal = CASE.replace("cells = [16, 2]", 'cells = [32, 4], periodic = "x"')
+    journal = journal.replace("1e-5*(2 - x/0.01)", "1e-5*(2 + cos(2*pi*x/0.01))")
+    journal = journal.replace("left", "bottom").replace("right", "top")
+    assert "film_without_supply" in named(summary_of(tmp_path / "case.toml", journal))
+    for remedy in ('cavitation_pressure = "-0.7 bar"', 'cavitation = "reynolds"'):
+        mended = journal.replace("viscosity", f"{remedy}\nviscosity", 1)
+        assert "film_without_supply" not in named(summary_of(tmp_path / "mended.toml", mended))
+    fed = journal.replace('top = { pressure = "0 bar" }', 'top = { pressure = "1 bar" }')
+    assert "film_without_supply" not in named(summary_of(tmp_path / "fed.toml", fed))
+
+
+def test_a_wedge_the_wrong_way_round_is_told(tmp_path):
+    opening = CASE.replace('"1 m/s"', '"-1 m/s"')
+    assert "film_builds_no_pressure" in named(summary_of(tmp_path / "case.toml", opening))
+    assert not named(summary_of(tmp_path / "closing.toml", CASE)) & {"film_builds_no_pressure", "film_without_supply"}
+
+
 def test_a_cavity_below_vacuum_is_told(tmp_path):
     deep = CASE.replace("viscosity", 'cavitation_pressure = "-1.1 bar"\nviscosity', 1)
     assert "cavitation_below_vacuum" in named(summary_of(tmp_path / "case.toml", deep))
@@ -208,3 +226,26 @@ def test_the_table_of_fields_has_a_unit_in_every_head(tmp_path):
     assert main(["film", str(tmp_path / "case.toml"), "-o", str(tmp_path / "run"), "--csv"]) == 0
     heads = (tmp_path / "run" / "fields.csv").read_text("utf-8").splitlines()[0].split(",")
     assert {"x [mm]", "y [mm]", "film_pressure [MPa]", "film_thickness [um]", "film_fraction [1]"} == set(heads)
+
+
+@pytest.mark.parametrize(
+    ("text", "key"),
+    [
+        (
+            CASE.replace('left = { pressure = "0 bar"', 'left = { pressure = "0 bar", temperature = "90 degC"'),
+            "boundary.left",
+        ),
+        (
+            CASE + '[oil]\ntemperature = "40 degC"\ntemperature_coefficient = "0.03 1/K"\n',
+            "oil.temperature_coefficient",
+        ),
+        (CASE + '[oil]\nspecific_heat = "2000 J/(kg K)"\n', "oil.specific_heat"),
+        (CASE + '[oil]\nthermal_conductivity = "0.13 W/(m K)"\n', "oil.thermal_conductivity"),
+        (CASE + '[oil]\nthermal_expansion = "7e-4 1/K"\n', "oil.thermal_expansion"),
+    ],
+)
+def test_a_key_that_only_a_solved_temperature_uses_is_told_without_thermal(told, text, key):
+    message = told(text)
+    assert key in message
+    assert "without a table [thermal]" in message
+    assert message.count("found:") == 1

@@ -74,7 +74,7 @@ def test_words_tell_what_limits_a_film(more, words):
 STARVED = """
 format = 1
 [film]
-mesh = { kind = "rectangle", size = ["157.07963 mm", "6.25 mm"], cells = [32, 4], periodic = "x", cell = "quadrilateral" }
+mesh = { kind = "rectangle", size = ["157.07963 mm", "6.25 mm"], cells = [32, 4], periodic = "x", cell="quadrilateral" }
 thickness = "50e-6*(1 + 0.6*cos(x/0.025))"
 velocity = ["2.5 m/s", "0 m/s"]
 viscosity = "30 mPa s"

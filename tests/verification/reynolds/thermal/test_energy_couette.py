@@ -109,7 +109,8 @@ def test_isoviscous_couette(validation):
 def test_the_highest_temperature_is_that_of_the_profile_at_any_number_of_levels(count):
     """Between walls at one temperature the middle is warmer by mu U^2/(8 k), whether or not a level lies there."""
     wall = GivenTemperature(INLET)
-    found = solve_thermal(couette(endless(), {"bottom": 0.0, "top": 0.0}), oil_heat(wall, wall), thinning(0.0), count=count)
+    problem = couette(endless(), {"bottom": 0.0, "top": 0.0})
+    found = solve_thermal(problem, oil_heat(wall, wall), thinning(0.0), count=count)
     exact = VISCOSITY * SPEED**2 / (8.0 * CONDUCTIVITY)
     np.testing.assert_allclose(found.heat.highest - INLET, exact, rtol=1e-6)
 
