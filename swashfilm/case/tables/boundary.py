@@ -12,6 +12,7 @@ import numpy as np
 from reynolds.problem import Cavitation
 from swashfilm.case.fields.field import InTime, Uniform
 from swashfilm.case.fields.mesh import CaseMesh
+from swashfilm.case.tables.oil import ONLY_HEATED
 from system.inputs.faults import nearest_choice
 from system.inputs.sections.fields import FormulaOf, Limits, Temperature, field_type, fields_of
 from system.inputs.sections.reader import Reading, read_entry
@@ -43,6 +44,8 @@ def read_boundaries(top: Table, reading: Reading, mesh: CaseMesh | None, level: 
     names, found = mesh.film_mesh.boundary_names if mesh else (), {}
     for name, entry in stated.items():
         path = f"boundary.{name}"
+        if top.get("thermal") is None and getattr(entry, "temperature", None) is not None:
+            reading.fault(f"{path}.temperature", "a temperature without a table [thermal]", ONLY_HEATED)
         if mesh and name not in names:
             sewn = {side for pair in mesh.film_mesh.seams for side in pair}
             what = "a side of the periodic seam" if name in sewn else "not a boundary of this mesh"

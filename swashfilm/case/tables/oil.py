@@ -39,7 +39,10 @@ from system.pump_file.tables import GRADE_KEYS, grade_viscosities
 PerKelvin = Annotated[float, Dimension.TEMPERATURE_COEFFICIENT, Positive]
 Stress = Annotated[float, Dimension.PRESSURE, Span.OF_TWO, Positive]
 _AT_TEMPERATURE, _OF_HEAT = ("density", "temperature"), ("specific_heat", "thermal_conductivity")
+_FOR_HEAT = (*_OF_HEAT, "thermal_expansion", "temperature_coefficient")
+"""Keys that only a solved temperature uses."""
 TAIT_SLOPE = 11.0  # of mineral oils
+ONLY_HEATED = "a film at one temperature without this key, or a table [thermal], which solves for it"
 
 
 class PressureLaw(Enum):
@@ -177,7 +180,7 @@ def read_oil(oil: Table, *, with_viscosity: bool, with_heat: bool) -> FilmOilSec
     """Return the oil of a table; None with its faults listed.
 
     `with_viscosity`: the case states film.viscosity, the table need not; `with_heat`: the film temperature is
-    solved, which needs density, temperature, specific heat and conductivity.
+    solved, which needs density, temperature, specific heat and conductivity; else what only heat needs is a fault.
     """
     before = len(oil.faults)
     reading = Reading(special={f"{oil.path}.grade": grade_viscosities}, faults=oil.faults)
@@ -194,6 +197,9 @@ def read_oil(oil: Table, *, with_viscosity: bool, with_heat: bool) -> FilmOilSec
             "not beside a grade: the viscosities at 40 and 100 degC give the decrease; or film.viscosity in their place"
         )
         oil.fault("temperature_coefficient", "a decrease with temperature without film.viscosity", expected)
+    elif not with_heat:
+        for key in filter(oil.values.__contains__, _FOR_HEAT):
+            oil.fault(key, "a property without a table [thermal]", ONLY_HEATED)
     needed = [*(() if with_viscosity else GRADE_KEYS), *(_OF_HEAT if with_heat else ())]
     needed += _AT_TEMPERATURE if with_heat or not with_viscosity else ()
     for key in (*needed, *_constants(oil, stated, reading)):
