@@ -7,10 +7,11 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 from reynolds.errors import InputError
-from swashfilm.cli.app import options_of, parse
+from swashfilm.cli.app import COMMANDS, options_of, parse
 from swashfilm.console.inputs import COMMAND_LINE
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 
@@ -78,4 +79,14 @@ def door(name: str) -> Iterator[None]:
 
 
 def _argument(text: str) -> str:
-    return re.sub(r"--([a-z][a-z-]*)", lambda found: found[1].replace("-", "_"), text)
+    """Return a text with the options of the commands as arguments; options of other programs stay."""
+    return re.sub(r"--([a-z][a-z-]*)", lambda found: _argument_of(found[0]), text)
+
+
+def _argument_of(option: str) -> str:
+    return option[2:].replace("-", "_") if option in _options() else option
+
+
+@cache
+def _options() -> frozenset[str]:
+    return frozenset(option for name in COMMANDS for option in options_of(name))

@@ -170,3 +170,12 @@ def test_numbers_of_keys_are_in_si_too():
     assert (
         sf.film(IN_UNITS.replace("1e-5*(2 - x/0.01)", "1 um"), set={"film.thickness": 1e-5}).film_thickness_min == 1e-5
     )
+
+
+def test_a_case_of_a_later_version_is_told_the_command_that_upgrades(tmp_path):
+    (tmp_path / "case.toml").write_text(IN_UNITS.replace("format = 1", "format = 99"), "utf-8")
+    for case in (SLIDER | {"format": 99}, tmp_path / "case.toml"):
+        assert "pip install --upgrade swashfilm" in str(faults_of(case))
+    with pytest.raises(sf.InputFaults) as raised:
+        sf.film(IN_UNITS, refine=99)
+    assert [fault.path for fault in raised.value.faults] == ["refine"]
