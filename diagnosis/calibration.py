@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from time import process_time
@@ -12,11 +12,12 @@ from diagnosis.checks.notes import note_text
 from diagnosis.explain.hypotheses import hypotheses
 from diagnosis.explain.ranked import Explanation
 from diagnosis.explain.refit import refit
-from diagnosis.recording.model import Recording
+from diagnosis.recording.model import DataNote, NoteKind, Recording
 from diagnosis.study.acceptance import accepted_recording, refuse_too_few
 from diagnosis.study.inputs import bench_points
 from diagnosis.study.model import Study, study_of
 from diagnosis.study.prepare import prepare
+from diagnosis.study.scaled.levels import at_level
 from diagnosis.thresholds import Thresholds, load_thresholds
 from diagnosis.verdict.suspects import unexplained
 from reynolds.errors import InputError, NotConverged
@@ -33,6 +34,7 @@ from system.effects.catalogue.entries import entry_of
 from system.effects.effect import EffectId
 from system.effects.extension import Extension
 from system.estimation.determined import Combination, undetermined
+from system.estimation.fit import is_peak
 from system.estimation.posterior import Posterior
 from system.inputs.channels import ChannelName
 from system.pump_file.file import KnownPump, known_pump
@@ -102,23 +104,24 @@ def calibrate(
     """Calibrate a pump by a recording.
 
     recording: a path, or a result of `checked_recording`; models: loss models fitted to the same readings; with_hersey:
-    try friction over the Hersey number beside constant coefficients. Raises InputFaults for a recording with faults or
-    too few readings, NotConverged where no fit converges.
+    try friction over the Hersey number beside constant coefficients. A pump known by its type plate is first set to the
+    level of the recording. Raises InputFaults for a recording with faults or too few readings, NotConverged where no
+    fit converges, or the fit of the pump was given up.
     """
     begun, thresholds, steps = process_time(), load_thresholds(), 4 + len(models)
     known = known_pump(pump)
     report(0, steps, "simulating the recording")
-    accepted = accepted_recording(recording, known)
-    study, bench, notes = _prepared(known.pump, accepted, with_hersey, thresholds)
+    known, accepted = at_level(known, accepted_recording(recording, known), tolerances(known.pump)[0])
+    accepted = with_notes(accepted, _other_make(known))
+    study, bench, notes = _prepared(known, accepted, with_hersey, thresholds)
     report(1, steps, "fitting the pump")
     null = refit(study, hypotheses(study, thresholds)[0], thresholds)
-    aside = unexplained(study, (null,), thresholds)
-    if aside:
-        study, bench, notes = _prepared(known.pump, with_notes(accepted, aside), with_hersey, thresholds)
+    if aside := unexplained(study, (null,), thresholds):
+        study, bench, notes = _prepared(known, with_notes(accepted, aside), with_hersey, thresholds)
         null = refit(study, hypotheses(study, thresholds)[0], thresholds)
-    fit = _fit_of(null)
     report(2, steps, "friction over the Hersey number")
     hersey = _hersey(study, null, thresholds, notes) if with_hersey else None
+    fit = _constant(null, hersey, study, thresholds, notes)
     best, laws = (hersey.fit, hersey.laws) if hersey is not None and hersey.supported else (fit, ())
     report(3, steps, "Eq. (21)")
     equation, mixed = _equations(known.pump, bench, fit, study, notes)
@@ -141,10 +144,10 @@ def calibrate(
 
 
 def _prepared(
-    pump: PumpDescription, recording: Recording, with_hersey: bool, thresholds: Thresholds
+    known: KnownPump, recording: Recording, with_hersey: bool, thresholds: Thresholds
 ) -> tuple[Study, LumpedBench, list[str]]:
     """The study with the paper's priors of friction, its bench, and the notes."""
-    catalogue = (entry_of(EffectId.MIXED_FRICTION),) if with_hersey else ()
+    catalogue, pump = (entry_of(EffectId.MIXED_FRICTION),) if with_hersey else (), known.pump
     allowed, taken = tolerances(pump)
     plain = prepare(pump, replace(recording, traces=()), allowed, thresholds, ())
     refuse_too_few(plain)
@@ -155,7 +158,8 @@ def _prepared(
     inputs = tuple(ChannelName.named(one) for one in plain.observations.inputs)
     bench = LumpedBench(pump, points, channels, parameters, inputs=inputs)
     study = study_of(plain.recording, bench, plain.observations, plain.axes, catalogue, thresholds)
-    return study, bench, [*map(note_text, plain.recording.notes), *map(str, taken), *assumed]
+    notes = [*map(note_text, plain.recording.notes), *map(str, taken), *assumed]
+    return replace(study, scant=known.scant), bench, notes
 
 
 def _hersey(study: Study, null: Explanation, thresholds: Thresholds, notes: list[str]) -> Hersey | None:
@@ -167,11 +171,12 @@ def _hersey(study: Study, null: Explanation, thresholds: Thresholds, notes: list
         return None
     try:
         found = refit(study, listed[0], thresholds)
+        fit = _peak_of(found, study, thresholds)
     except NotConverged as reason:
         notes.append(f"friction over the Hersey number could not be fitted: {reason}")
         return None
     evidence = found.log_evidence - null.log_evidence
-    return Hersey(_fit_of(found), found.hypothesis.laws, evidence, evidence > thresholds.name.odds)
+    return Hersey(fit, found.hypothesis.laws, evidence, evidence > thresholds.name.odds)
 
 
 def _equations(
@@ -215,7 +220,41 @@ def _compared(
     return tuple(rows)
 
 
-def _fit_of(explanation: Explanation) -> Posterior:
-    if explanation.posterior is None:
+def _constant(
+    null: Explanation, hersey: Hersey | None, study: Study, thresholds: Thresholds, notes: list[str]
+) -> Posterior:
+    """The fit with constant coefficients.
+
+    One that was given up is only beside friction over the Hersey number that the readings support, with a note; else
+    NotConverged is raised.
+    """
+    try:
+        return _peak_of(null, study, thresholds)
+    except NotConverged as reason:
+        if null.posterior is None or hersey is None or not hersey.supported:
+            raise
+        notes.append(f"constant friction coefficients, and Eq. (21) beside them, do not hold: {reason}")
+        return null.posterior
+
+
+def _peak_of(explanation: Explanation, study: Study, thresholds: Thresholds) -> Posterior:
+    """The fit of an explanation. Raises NotConverged for one that was given up: its values and sigmas do not hold."""
+    fit = explanation.posterior
+    if fit is None:
         raise ValueError(f"{explanation.hypothesis.text}: not fitted")
-    return explanation.posterior
+    if not is_peak(fit, thresholds.fit_limits(study.scant)):
+        raise NotConverged(
+            f"the fit was given up at a chi-square per reading of {fit.objective / fit.residual.size:.3g}, before its "
+            "peak. The readings contradict the pump: `swashfilm diagnose` tells where; correct it, then calibrate"
+        )
+    return fit
+
+
+def _other_make(known: KnownPump) -> Iterator[DataNote]:
+    """A warning of a pump known by its type plate."""
+    if known.scant:
+        text = (
+            f"{known.pump.name} is known by its type plate: coefficients and sigmas are those of ref90's laws, scaled. "
+            "Laws of another make are not allowed for: friction may seem to change with the Hersey number"
+        )
+        yield DataNote(NoteKind.WARNED, None, (), text)

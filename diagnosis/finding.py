@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
-from diagnosis.checks.check import with_notes
 from diagnosis.procedure.compared import PumpComparison
 from diagnosis.procedure.cost import cost_words
 from diagnosis.procedure.next_test import with_next_point
@@ -19,8 +18,7 @@ from diagnosis.report.measure import NO_NEXT_POINT
 from diagnosis.study.acceptance import accepted_recording, refuse_too_few, refuse_too_smooth
 from diagnosis.study.model import Study
 from diagnosis.study.prepare import prepare
-from diagnosis.study.scaled.far import far_levels
-from diagnosis.study.scaled.levels import levelled
+from diagnosis.study.scaled.levels import at_level
 from diagnosis.thresholds import Thresholds, load_thresholds
 from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
 from diagnosis.verdict.row_numbers import by_table_rows
@@ -80,9 +78,8 @@ def diagnose(
     candidates = catalogue if films is None else films.catalogue
     allowed, assumed = tolerances(known.pump)
     accepted = accepted_recording(recording, known)
-    stated, known = known.pump, levelled(known, accepted, allowed)
+    known, accepted = at_level(known, accepted, allowed)
     described = known.pump
-    accepted = with_notes(accepted, far_levels(stated, described, allowed))
 
     def prepared(usable: Recording) -> Study:
         study = prepare(described, usable, allowed, thresholds, candidates, known.scant, films)

@@ -19,8 +19,10 @@ from dataclasses import replace
 import numpy as np
 from scipy.optimize import least_squares
 
+from diagnosis.checks.check import with_notes
 from diagnosis.recording.model import Recording
 from diagnosis.study.inputs import bench_points, complete, measured
+from diagnosis.study.scaled.far import far_levels
 from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
 from system.bench.outputs import SIMULATED
@@ -44,11 +46,21 @@ BESIDE = 0.3
 """One sigma of zero and orifice in the drain flow, shares of its median."""
 FAR = 1e3
 """Residual where a pump cannot be simulated."""
+STEPS = 100
+"""Of the fit at most; it takes some 25."""
 POINTS = 40
 """Points of the recording that the fit uses, evenly in their order."""
+AT_LEVEL = "at the level of the recording"
+NEAR_LEVEL = f"near the level of the recording, which a fit of {STEPS} steps has not reached; state it if it is known"
 _FILMS = tuple(f"film_thickness.{gap.value}" for gap in Gap)
 _DISPLACEMENT, _FRICTION = "displacement", "friction."
 _FLOWS = {ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE}
+
+
+def at_level(known: KnownPump, recording: Recording, tolerances: Tolerances) -> tuple[KnownPump, Recording]:
+    """A pump at the level of its recording (`levelled`), and that with warnings of what is far from the type plate."""
+    moved = levelled(known, recording, tolerances)
+    return moved, with_notes(recording, far_levels(known.pump, moved.pump, tolerances))
 
 
 def levelled(known: KnownPump, recording: Recording, tolerances: Tolerances) -> KnownPump:
@@ -62,34 +74,36 @@ def levelled(known: KnownPump, recording: Recording, tolerances: Tolerances) -> 
         return known
     chosen = _some(usable)
     parameters = base_parameters(known.pump, tolerances)
-    bench = LumpedBench(known.pump, bench_points(chosen, known.pump)[0], channels, parameters, inputs=())
+    points, _ = bench_points(chosen, known.pump)
+    bench = LumpedBench(known.pump, points, channels, parameters, inputs=())
     order = list(ChannelName)
     readings = chosen.steady.values[:, [order.index(name) for name in channels]]
     scale = np.array([SHARES.get(name, SHARE) for name in channels]) * np.nanmedian(np.abs(readings), axis=0)
     names = [one.name for one in parameters]
     groups = _groups(names, channels)
-    beside = _beside_leakage(chosen, channels, scale)
-    values = _fitted(bench, readings, scale, groups, beside)
+    beside = _beside_leakage(points.p_out, channels, readings, scale)
+    values, ended = _fitted(bench, readings, scale, groups, beside)
     moved = {names[k]: float(values[k]) for _, members in groups for k in members}
-    return replace(known, pump=pump_with(known.pump, moved), assumptions=(*known.assumptions, *_assumed(moved)))
+    assumed = _assumed(moved, AT_LEVEL if ended else NEAR_LEVEL)
+    return replace(known, pump=pump_with(known.pump, moved), assumptions=(*known.assumptions, *assumed))
 
 
 Groups = Sequence[tuple[str, list[int]]]
 
 
-def _beside_leakage(recording: Recording, channels: Sequence[ChannelName], scale: Array) -> Array:
-    """One sigma (N, C, 2) of zero and orifice in the drain flow, in units of the residuals."""
-    found = np.zeros((len(recording.steady.values), len(channels), 2))
+def _beside_leakage(pressure: Array, channels: Sequence[ChannelName], readings: Array, scale: Array) -> Array:
+    """One sigma (N, C, 2) of zero and orifice in the drain flow, in units of the residuals; pressure (N,) in Pa."""
+    found = np.zeros((*readings.shape, 2))
     if ChannelName.Q_CASE in channels:
         at = channels.index(ChannelName.Q_CASE)
-        root = np.sqrt(np.maximum(recording.steady.column(ChannelName.P_OUT), 0.0))
-        median = np.nanmedian(np.abs(recording.steady.column(ChannelName.Q_CASE)))
-        found[:, at] = BESIDE * median / scale[at] * np.stack((np.ones_like(root), root / root.max()), axis=1)
+        root = np.sqrt(np.maximum(pressure, 0.0))
+        median = np.nanmedian(np.abs(readings[:, at]))
+        found[:, at] = BESIDE * median / scale[at] * np.stack((np.ones_like(root), root / max(root.max(), 1.0)), axis=1)
     return found
 
 
-def _fitted(bench: LumpedBench, readings: Array, scale: Array, groups: Groups, beside: Array) -> Array:
-    """Values (k,) of the bench's parameters with each group at its factor."""
+def _fitted(bench: LumpedBench, readings: Array, scale: Array, groups: Groups, beside: Array) -> tuple[Array, bool]:
+    """Values (k,) of the bench's parameters with each group at its factor; whether the fit has ended in `STEPS`."""
     centre = np.array([one.centre for one in bench.parameters])
     spread = np.array([DISPLACEMENT_SPREAD if name == _DISPLACEMENT else SPREAD for name, _ in groups])
     known = np.isfinite(readings)
@@ -112,9 +126,9 @@ def _fitted(bench: LumpedBench, readings: Array, scale: Array, groups: Groups, b
 
     farthest = FARTHEST / spread
     fit = least_squares(
-        residuals, np.zeros(len(groups)), loss="soft_l1", diff_step=1e-2, max_nfev=25, bounds=(-farthest, farthest)
+        residuals, np.zeros(len(groups)), loss="soft_l1", diff_step=1e-2, max_nfev=STEPS, bounds=(-farthest, farthest)
     )
-    return values_of(fit.x)
+    return values_of(fit.x), fit.status > 0
 
 
 def _some(recording: Recording) -> Recording:
@@ -132,8 +146,7 @@ def _groups(names: Sequence[str], channels: Collection[ChannelName]) -> Groups:
     return [*own, (_FRICTION, friction)] if friction else own
 
 
-def _assumed(moved: dict[str, float]) -> tuple[Assumption, ...]:
-    reason = "at the level of the recording"
+def _assumed(moved: dict[str, float], reason: str) -> tuple[Assumption, ...]:
     return tuple(
         Assumption(
             name,

@@ -58,6 +58,7 @@ def run_calibrate_command(options: argparse.Namespace) -> int:
         show(text)
     for heading, rows in run.tables():
         show_table(heading, rows)
+    show_contradictions(found.study.recording, recording)
     for note in found.notes:
         if note.startswith(NoteKind.REMOVED.value):
             show(note)

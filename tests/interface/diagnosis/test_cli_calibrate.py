@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+from dataclasses import replace
 from itertools import product
 from pathlib import Path
 
@@ -11,6 +12,10 @@ import numpy as np
 import pytest
 from recording_heads import HEAD
 
+from diagnosis import Study, calibrate
+from diagnosis.explain.ranked import Explanation
+from diagnosis.explain.refit import refit
+from reynolds import NotConverged
 from swashfilm.__main__ import main
 from swashfilm.runs.calibrate.answer import calibrate_answer
 from system import SIMULATED, BenchPoints, EffectId, Extension, LumpedBench, entry_of, load_pump
@@ -32,6 +37,7 @@ torque = { column = "M", unit = "N m", sigma = 0.3 }
 """
 )
 PLANTED = {"friction.slipper_swash_plate": 0.009, "friction.piston_cylinder": 0.022}
+WIDE = ("--set", "tolerance.friction=0.66")
 BOUNDARY = {"mixed_friction.slipper": 0.05}
 
 
@@ -76,7 +82,7 @@ def test_from_files_to_files(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     """Planted coefficients are found within 3 sigma; models in one table; the fitted pump loads, and reports."""
     out = tmp_path / "out"
     recording = _made(tmp_path / "made")
-    words = ["calibrate", "ref90", str(recording), "-o", str(out), "--models", "wilson"]
+    words = ["calibrate", "ref90", str(recording), *WIDE, "-o", str(out), "--models", "wilson"]
     assert main(words) == 0
     told = capsys.readouterr().out
     assert "friction coefficient, slipper-swash plate" in told
@@ -84,6 +90,10 @@ def test_from_files_to_files(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     assert page.index("The recording determines") < page.index("<nav>") < page.index("chi-square")
     assert "e-05 m" not in page
     found = {row["name"]: row for row in _table(out, "parameters.csv")}
+    slipper = found["friction.slipper_swash_plate"]
+    assert float(slipper["prior_high"]) == pytest.approx(PUMP.friction.slipper_swash_plate * np.exp(0.66), rel=1e-4)
+    assert slipper["source"] == "[tolerance]"
+    assert "assumed by" in told
     for name, planted in PLANTED.items():
         assert abs(float(found[name]["mean"]) - planted) < 3 * float(found[name]["sigma"])
     assert float(found["friction.slipper_swash_plate"]["sigma_over_prior [1]"]) < 0.5
@@ -106,13 +116,55 @@ def test_friction_over_the_hersey_number_is_found_where_it_is(tmp_path: Path) ->
     """Boundary friction of .05 in the slippers that speed takes away: odds above three nats, and a curve."""
     law = entry_of(EffectId.MIXED_FRICTION).extensions[0].members[3]
     recording, out = _made(tmp_path / "made", law), tmp_path / "out"
-    assert main(["calibrate", "ref90", str(recording), "-o", str(out), "--models", "none"]) == 0
+    words = ["calibrate", "ref90", str(recording), *WIDE, "-o", str(out), "--models", "none"]
+    assert main(words) == 0
     summary = json.loads((out / "summary.json").read_text("utf-8"))
     assert summary["hersey"]["supported"]
+    assert any("constant friction coefficients" in note and "given up" in note for note in summary["notes"])
     assert _table(out, "heldout.csv") == []
     slipper = [float(row["friction [1]"]) for row in _table(out, "hersey.csv") if row["gap"] == "slipper"]
     assert slipper[0] > 1.5 * slipper[-1]
     assert load_pump(str(out / "pump_calibrated.toml")).physics.mixed_friction is not None
+
+
+PLATE = """[pump]
+displacement = "90 cm3"
+pistons = 9
+rated_speed = "2100 rpm"
+[oil]
+grade = "ISO VG 68"
+"""
+
+
+@pytest.mark.slow
+def test_a_pump_known_by_its_type_plate_is_set_to_the_level_and_told(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Its assumptions are those of the level; what its sigmas leave out is a warning on terminal and in the file."""
+    recording, out = _made(tmp_path / "made"), tmp_path / "out"
+    (tmp_path / "plate.toml").write_text(PLATE, "utf-8")
+    words = ["calibrate", str(tmp_path / "plate.toml"), str(recording), "--models", "none", "--laws", "none"]
+    assert main([*words, "-o", str(out)]) == 0
+    assert "warning: plate is known by its type plate" in capsys.readouterr().out
+    summary = json.loads((out / "summary.json").read_text("utf-8"))
+    assert any("plate is known by its type plate" in note for note in summary["notes"])
+    assert any("at the level of the recording" in text for text in summary["assumptions"])
+
+
+def test_a_fit_that_was_given_up_has_no_coefficients(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its place promises a fall of the objective: neither its values nor their sigmas hold."""
+
+    def given_up(study: Study, *_: object) -> Explanation:
+        fit = refit(study, *_)
+        assert fit.posterior is not None
+        aside = fit.posterior.xi + 3.0 / np.sqrt(fit.posterior.xi.size)
+        left = fit.posterior.residual - fit.posterior.slopes @ (aside - fit.posterior.xi)
+        place = replace(fit.posterior, xi=aside, residual=left, objective=float(left @ left + aside @ aside))
+        return replace(fit, posterior=place)
+
+    monkeypatch.setattr("diagnosis.calibration.refit", given_up)
+    with pytest.raises(NotConverged, match=r"given up .* `swashfilm diagnose` tells where"):
+        calibrate(PUMP, _made(tmp_path / "made"), models=(), with_hersey=False)
 
 
 @pytest.mark.parametrize(
