@@ -187,25 +187,25 @@ def _pressure_warnings(study: FilmStudy) -> Iterator[Warned]:
     """Yield a warning of pressures beyond those of any oil, or else of an isoviscous free film of high pressure."""
     highest = study.loads.pressure_max
     if highest > LARGEST_OIL_PRESSURE:
-        yield beyond_oil(highest)
+        yield beyond_oil(highest, elastic=study.solution.problem.walls is not None)
         return
     constant = study.heat is None and study.solution.problem.fluid.viscosity is isoviscous
     if constant and not study.gap and highest > LARGEST_ISOVISCOUS_PRESSURE:
         yield (
             "viscosity_without_pressure",
             f"the film reaches {pressure_text(highest)} (limit {pressure_text(LARGEST_ISOVISCOUS_PRESSURE)} for a "
-            "constant viscosity): viscosity is several times higher; add pressure_law in [oil], and elastic walls, "
-            "[elastic]",
+            "constant viscosity): viscosity is several times higher; add pressure_law in [oil]"
+            + ("" if study.solution.problem.walls else ", and elastic walls, [elastic]"),
         )
 
 
-def beyond_oil(highest: float) -> Warned:
-    """Return the warning of a film whose largest pressure (Pa) is above LARGEST_OIL_PRESSURE."""
+def beyond_oil(highest: float, *, elastic: bool) -> Warned:
+    """Return the warning of a film whose largest pressure (Pa) is above LARGEST_OIL_PRESSURE, between such walls."""
     return (
         "film_pressure_beyond_oil",
         f"the film reaches {pressure_text(highest)} (limit {pressure_text(LARGEST_OIL_PRESSURE)}, about which oil "
         "turns solid; steel yields soon above it): no such film exists; check the units of film thickness, speed, "
-        "viscosity and load, and add elastic walls",
+        f"viscosity and load{'' if elastic else ', and add elastic walls'}",
     )
 
 

@@ -109,7 +109,7 @@ def _pressures(case: GapOverTurn, found: GapRevolution[Any]) -> Iterator[tuple[s
     left_out, turn = case.options.physics.left_out, found.turn
     peak = max(instant.pressure_max for instant in turn.instants)
     if peak > LARGEST_OIL_PRESSURE:
-        yield beyond_oil(peak)
+        yield beyond_oil(peak, elastic=Effect.ELASTIC_WALLS not in left_out)
     elif Effect.ELASTIC_WALLS in left_out and peak > LARGEST_RIGID_PRESSURE:
         yield (
             "film_pressure_beyond_rigid",
