@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
-from .judged import is_named, is_wrong_name, of_class, of_unknown
-from .outcome import Outcome
+from .judged import UNKNOWN, is_named, is_wrong_name, of_class, of_unknown
+from .outcome import Claimed, Outcome
 from .parts import Part, Plant, plant_of
 
 EDGES = (0.0, 0.8, 0.9, 0.99, 1.0)
@@ -21,7 +22,8 @@ def write_record(outcomes: Sequence[Outcome], path: Path) -> None:
 
     A row: answer (name; part, a name that leaves a part of the mismatch; unknown; suspicion; nothing), pump (stated in
     a file, or by its type_plate), band of the stated probability, right ones, cases. A name is right if all its claims
-    are concealed, a suspicion if anything is, "nothing" if nothing is.
+    are concealed, a suspicion if anything is, "nothing" if nothing is. Unknown physics in the class of a claim counts
+    neither as its probability nor as right.
     """
     known = {part.value for part in Part}
     counted = [one for one in outcomes if one.part in known and not one.failed]
@@ -53,10 +55,15 @@ def _pump(outcome: Outcome) -> str:
 def _stated(outcome: Outcome) -> float:
     """The probability of an answer as stated: of a name that of its least certain class."""
     if outcome.claims:
-        return min(of_class(outcome, one) for one in outcome.claims)
+        return min(of_class(outcome, _by_name(one)) for one in outcome.claims)
     if is_named(outcome):
         return of_unknown(outcome)
     return outcome.nothing if outcome.status != "suspicion" else 1.0 - outcome.nothing
+
+
+def _by_name(claim: Claimed) -> Claimed:
+    """A claim whose class has no unknown physics."""
+    return replace(claim, equivalent=tuple(one for one in claim.equivalent if one != UNKNOWN))
 
 
 def _band(probability: float) -> tuple[float, float]:
@@ -65,5 +72,5 @@ def _band(probability: float) -> tuple[float, float]:
 
 def _right(outcome: Outcome) -> bool:
     if is_named(outcome):
-        return not is_wrong_name(outcome)
+        return not is_wrong_name(replace(outcome, claims=tuple(map(_by_name, outcome.claims))))
     return (outcome.truth == "no_mismatch") == (outcome.verdict == "no_mismatch" and outcome.status != "suspicion")

@@ -17,6 +17,11 @@ COSTS = {
     "case drain": (1.0, "{:.2g} L/min through the case drain", "{:.2g} L/min less case drain"),
 }
 """Sign of a change that is a cost, its words, and those of the opposite change, by the quantity of a comparison."""
+BETTER = (
+    "So the pump is better than described: look first at the values of its file, stated and assumed, above all "
+    "friction and clearances."
+)
+"""Of a finding that costs nothing."""
 
 
 def cost_words(comparison: PumpComparison) -> str:
@@ -30,7 +35,8 @@ def cost_words(comparison: PumpComparison) -> str:
     parts = [f"costs {listed(costs)}"] if costs else []
     parts += [f"brings {listed(gains)}"] if gains else []
     told = " and ".join(parts) or "changes flow, torque and efficiency by less than can be seen"
-    return f"It {told} where it shows most{place}."
+    better = f" {BETTER}" if gains and not costs else ""
+    return f"It {told} where it shows most{place}.{better}"
 
 
 def _material(comparison: PumpComparison) -> Iterator[tuple[bool, str]]:

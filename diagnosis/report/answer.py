@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 
 from diagnosis.report.certainty import SURE, certainty, record_words, sure_words
@@ -18,9 +18,15 @@ from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
 from system.description.gap import Gap
 from system.effects.catalogue.bench_words import BENCH_WORDS, PARTS
 from system.effects.effect import EffectId, Kind
+from system.inputs.channels import ChannelName
 
 SUSPECTS = 2
 """Number of explanations of a suspicion with inspections on the page."""
+TO_THE_INLET = frozenset({EffectId.PORT_SHORT_CIRCUIT, EffectId.LAMINAR_CROSS_LEAK})
+LEAK_OUTSIDE = (
+    "No inlet flow is recorded: a leak of the line between the pump and its flow meter looks alike. Look at the "
+    "bench's relief valve and fittings, too."
+)
 
 
 @dataclass(frozen=True)
@@ -74,7 +80,7 @@ def plain_answer(study: Study, diagnosis: Diagnosis, cost: str) -> PlainAnswer:
         where=where_words(diagnosis),
         certainty=certainty(diagnosis, study.scant),
         rivals=rivals_words(diagnosis),
-        look=tuple(_looks(diagnosis)),
+        look=tuple(inspections(diagnosis, study.channels)),
         measure=_measure(study, diagnosis),
         fit=fit_words(diagnosis),
         evidence=evidence(diagnosis),
@@ -94,8 +100,12 @@ def _measure(study: Study, diagnosis: Diagnosis) -> str:
     return hidden_words(study, hidden_examples(study, hidden_effects(study, diagnosis)))
 
 
-def _looks(diagnosis: Diagnosis) -> Iterator[Look]:
-    """Inspections for claims and explanations inseparable from them; of a suspicion the likeliest; of the unknown."""
+def inspections(diagnosis: Diagnosis, channels: Collection[ChannelName]) -> Iterator[Look]:
+    """Inspections for claims and explanations inseparable from them; of a suspicion the likeliest; of the unknown.
+
+    channels: the recorded ones.
+    """
+    outside = frozenset() if ChannelName.Q_IN in channels else TO_THE_INLET
     places: dict[EffectId, list[Gap]] = {}
     for effect, pair in _suspects(diagnosis):
         known = places.setdefault(effect, [])
@@ -105,7 +115,8 @@ def _looks(diagnosis: Diagnosis) -> Iterator[Look]:
         where = f" at {listed((PLACES[gap] for gap in gaps), 'or')}" if gaps else ""
         parts, name = listed(PARTS[gap] for gap in gaps or Gap), effect_words([effect])
         heading = "" if alone else f"{name[0].upper()}{name[1:]}{where}"
-        yield Look(effect.value, heading, BENCH_WORDS[effect].look.format(parts=parts))
+        beside = f" {LEAK_OUTSIDE}" if effect in outside else ""
+        yield Look(effect.value, heading, f"{BENCH_WORDS[effect].look.format(parts=parts)}{beside}")
 
 
 def _suspects(diagnosis: Diagnosis) -> Iterator[tuple[EffectId, Gap | None]]:

@@ -13,7 +13,7 @@ from scipy.stats import binomtest
 
 from diagnosis.report.format import chance
 from diagnosis.verdict.diagnosis import ClaimedEffect, Diagnosis, VerdictStatus
-from system.effects.effect import Kind
+from system.effects.effect import EffectId, Kind
 
 ENOUGH = 10
 """Trials of a band of probability below which all bands of the answer count together."""
@@ -76,7 +76,10 @@ def record_of(kind: AnswerKind, scant: bool, probability: float) -> Record | Non
 
 
 def stated_probability(diagnosis: Diagnosis) -> float:
-    """The probability of the answer: of claims that of the least certain class; of a suspicion that of any mismatch."""
+    """The probability of the answer: of claims that of the least certain class; of a suspicion that of any mismatch.
+
+    A class may include a cause outside the catalogue, which no reading contradicts: it does not count.
+    """
     if diagnosis.effects:
         return min(_of_class(claim, diagnosis) for claim in diagnosis.effects)
     wanted = Kind.UNKNOWN_PHYSICS if _kind(diagnosis) is AnswerKind.UNKNOWN else Kind.NO_MISMATCH
@@ -101,7 +104,7 @@ def sure_words(diagnosis: Diagnosis, scant: bool) -> str:
 
 
 def record_words(diagnosis: Diagnosis, scant: bool) -> str:
-    """The record of such answers in a few words: "32 of 33 such answers right"; empty without one."""
+    """The record of such answers in a few words: "31 of 32 such answers right"; empty without one."""
     record = record_of(_kind(diagnosis), scant, stated_probability(diagnosis))
     return f"{record.right} of {record.cases} such answers right" if record else ""
 
@@ -126,20 +129,37 @@ _RIGHT = {
 }
 
 
-_OF = {AnswerKind.SUSPICION: " that there is a cause", AnswerKind.NOTHING: " that nothing is wrong"}
+_OF = {
+    AnswerKind.SUSPICION: " that there is a cause",
+    AnswerKind.NOTHING: " that nothing is wrong",
+    AnswerKind.UNKNOWN: " that no effect of the catalogue is the cause",
+}
 
 
 def _sentences(diagnosis: Diagnosis, scant: bool) -> Iterator[str]:
     kind, probability = _kind(diagnosis), stated_probability(diagnosis)
     words = sure_words(diagnosis, scant)
-    alike = any(claim.equivalent or claim.elsewhere for claim in diagnosis.effects)
-    which = "one of these" if len(diagnosis.effects) == 1 else "these, or what cannot be told from them"
     whole = " that this is the whole cause" if scant and diagnosis.effects else ""
-    of = f" that it is {which}" if alike else _OF.get(kind, whole)
+    of = _which(diagnosis) or _OF.get(kind, whole)
     yield f"{words[0].upper()}{words[1:]}{of} (stated probability {chance(probability)})."
     record = record_of(kind, scant, probability)
     if record is not None:
         yield record_text(record, kind, scant)
+
+
+def _which(diagnosis: Diagnosis) -> str:
+    """What a claim with a class is sure of; empty for claims without one."""
+    claims = diagnosis.effects
+    outside = any(EffectId.UNKNOWN_PHYSICS in claim.equivalent for claim in claims)
+    alike = any(_named(claim) - {claim.effect} or claim.elsewhere for claim in claims)
+    which = "this" if not alike else "one of these" if len(claims) == 1 else "these, or what cannot be told from them"
+    beside = " and no cause outside the catalogue" if outside else ""
+    return f" that it is {which}{beside}" if alike or outside else ""
+
+
+def _named(claim: ClaimedEffect) -> set[EffectId]:
+    """The effects of a claim and of its class that have a law."""
+    return {claim.effect, *claim.equivalent} - {EffectId.UNKNOWN_PHYSICS}
 
 
 def _kind(diagnosis: Diagnosis) -> AnswerKind:
@@ -153,5 +173,5 @@ def _kind(diagnosis: Diagnosis) -> AnswerKind:
 
 
 def _of_class(claim: ClaimedEffect, diagnosis: Diagnosis) -> float:
-    members = {claim.effect, *claim.equivalent}
+    members = _named(claim)
     return min(1.0, sum(one.probability for one in diagnosis.hypotheses if members & set(one.hypothesis.effects)))

@@ -23,8 +23,8 @@ NO_POINT_TELLS = (
     "No further operating point would tell more: nothing else that could be fitted comes near. The pump's own "
     f"dimensions would: {DIMENSIONS}."
 )
-EVEN = 0.5
-"""Chance of a decision below which readings hardly decide."""
+EVEN, POOR = 0.5, 0.2
+"""Chances of a decision below which readings hardly decide, and below which they are not worth a test."""
 METERS = (ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE, ChannelName.TORQUE)
 """Of a bench that shows every effect on flows and torque."""
 MAP_AXES = (ChannelName.SPEED, ChannelName.P_OUT, ChannelName.DISPLACEMENT_RATIO)
@@ -71,6 +71,12 @@ def hidden_words(study: Study, examples: str) -> str:
 def next_point_text(found: NextPoint) -> str:
     """The next test with the readings to expect, and the chance that it decides."""
     (one, other), (first, second) = found.expected.texts, if_words(*found.between)
+    if not found.settles and not found.repeats and found.chance < POOR:
+        return (
+            f"No operating point of this bench and no further meter tells whether {first.removeprefix('if ')} or "
+            f"{second.removeprefix('if ')}: the best test would with a chance of {100.0 * found.chance:.0f} %. The "
+            f"pump's own dimensions may: {DIMENSIONS}."
+        )
     reads = f"{_channel(found.expected.channel)} reads {one} {first}, {other} {second}."
     added = f"Add to the bench: {found.meter_words}. " if found.meter else ""
     places = [point_words(found, place) for place in found.places]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import inf
 
 from diagnosis.detect.regions import MapRegion
 from diagnosis.detect.time_scan import TimeKind
@@ -25,7 +24,7 @@ from diagnosis.report.format import (
 from diagnosis.report.measure import measure_words
 from diagnosis.report.sizes import finding_sentence
 from diagnosis.study.map_axes import AXES
-from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
+from diagnosis.verdict.diagnosis import ClaimedEffect, Diagnosis, VerdictStatus
 from diagnosis.verdict.locate import Location
 from system.effects.effect import EffectId, Kind
 from system.inputs.channels import ChannelName
@@ -57,7 +56,8 @@ def headline(diagnosis: Diagnosis) -> str:
         return "A mismatch without a known cause."
     left = "; a part of the mismatch remains" if diagnosis.status is VerdictStatus.INCOMPLETE else ""
     causes = len(diagnosis.effects)
-    alike = [len(claim.equivalent) + len(claim.elsewhere) for claim in diagnosis.effects]
+    outside = {EffectId.UNKNOWN_PHYSICS}
+    alike = [len({*claim.equivalent} - outside) + len(claim.elsewhere) for claim in diagnosis.effects]
     if causes == 1 and alike[0]:
         return f"Narrowed down to {_count(1 + alike[0])} causes{left}."
     sure = not left and stated_probability(diagnosis) >= diagnosis.thresholds.name.probability
@@ -200,8 +200,8 @@ def _class(diagnosis: Diagnosis) -> Iterator[str]:
         if claim.equivalent:
             others = listed((_member(one, diagnosis) for one in claim.equivalent), "or")
             own = effect_words([claim.effect])
-            if claim.equivalent == (EffectId.UNKNOWN_PHYSICS,) and _is_behind_unknown(diagnosis):
-                comparison = f"fits this recording better. It may be {own} by another law"
+            if claim.equivalent == (EffectId.UNKNOWN_PHYSICS,) and _is_behind_unknown(claim, diagnosis):
+                comparison = f"is likelier. It may be {own} by another law"
             else:
                 comparison = f"in place of {own} fits this recording as well"
             yield f"{others[0].upper()}{others[1:]} {comparison}."
@@ -211,10 +211,14 @@ def _class(diagnosis: Diagnosis) -> Iterator[str]:
             yield f"This recording cannot tell {own} from {others}."
 
 
-def _is_behind_unknown(diagnosis: Diagnosis) -> bool:
-    """True if unknown physics has more evidence than the claim."""
-    unknown = [one.log_weight for one in diagnosis.hypotheses if one.hypothesis.kind is Kind.UNKNOWN_PHYSICS]
-    return max(unknown, default=-inf) > diagnosis.hypotheses[0].log_weight
+def _is_behind_unknown(claim: ClaimedEffect, diagnosis: Diagnosis) -> bool:
+    """True if unknown physics is likelier than the claim."""
+    return _probability_of(EffectId.UNKNOWN_PHYSICS, diagnosis) > _probability_of(claim.effect, diagnosis)
+
+
+def _probability_of(effect: EffectId, diagnosis: Diagnosis) -> float:
+    """Probability of all explanations with an effect."""
+    return sum(one.probability for one in diagnosis.hypotheses if effect in one.hypothesis.effects)
 
 
 def _member(effect: EffectId, diagnosis: Diagnosis) -> str:
@@ -222,9 +226,7 @@ def _member(effect: EffectId, diagnosis: Diagnosis) -> str:
     words = effect_words([effect])
     if effect is not EffectId.UNKNOWN_PHYSICS:
         return words
-    return (
-        f"{words} ({chance(sum(one.probability for one in diagnosis.hypotheses if effect in one.hypothesis.effects))})"
-    )
+    return f"{words} ({chance(_probability_of(effect, diagnosis))})"
 
 
 def _incomplete(diagnosis: Diagnosis) -> Iterator[str]:

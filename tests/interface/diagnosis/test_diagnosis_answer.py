@@ -14,7 +14,7 @@ from diagnosis.explain.explained import ExplainedMismatch
 from diagnosis.procedure.compared import NO_COMPARISON, WITH, Change, PumpComparison
 from diagnosis.procedure.cost import cost_words
 from diagnosis.report import course
-from diagnosis.report.answer import plain_answer
+from diagnosis.report.answer import inspections, plain_answer
 from diagnosis.report.certainty import (
     AnswerKind,
     Record,
@@ -26,10 +26,11 @@ from diagnosis.report.certainty import (
 )
 from diagnosis.report.measure import NOTHING_MORE
 from diagnosis.report.sizes import FORMS, finding_sentence
+from diagnosis.report.text import headline
 from diagnosis.study.acceptance import contradictions
 from diagnosis.study.scaled.far import far_levels
 from diagnosis.verdict.diagnosis import ClaimedEffect, Estimate, VerdictStatus
-from system import Dimension, EffectId, Gap, Kind, load_pump
+from system import ChannelName, Dimension, EffectId, Gap, Kind, load_pump
 from system.bench.parameters import base_parameters, pump_with
 from system.description.tolerances import tolerances
 from system.effects.catalogue.bench_words import BENCH_WORDS, PARTS
@@ -142,6 +143,29 @@ def test_certainty_stands_beside_its_record(named: Diagnosis) -> None:
     assert certainty(named, False).startswith("Very sure (stated probability 0.93). In trials on other simulators, ")
 
 
+def test_a_class_that_includes_an_unknown_cause_is_no_surer_for_it(named: Diagnosis) -> None:
+    """No reading contradicts a cause outside the catalogue: the certainty is that of the effects with a law."""
+    claim = replace(named.effects[0], equivalent=(E.UNKNOWN_PHYSICS,))
+    unknown = replace(named.hypotheses[1], hypothesis=hypothesis(E.UNKNOWN_PHYSICS, kind=Kind.UNKNOWN_PHYSICS))
+    weighed = (replace(named.hypotheses[0], probability=0.6), replace(unknown, probability=0.4))
+    found = replace(named, status=VerdictStatus.CLASS, effects=(claim,), hypotheses=weighed)
+    assert stated_probability(found) == pytest.approx(0.6)
+    assert "that it is this and no cause outside the catalogue (stated probability 0.6" in certainty(found, False)
+    assert headline(found) == "Likely cause found."
+    both = replace(found, effects=(replace(claim, equivalent=(E.FILM_HEATING, E.UNKNOWN_PHYSICS)),))
+    assert "that it is one of these and no cause outside the catalogue" in certainty(both, False)
+    assert headline(both) == "Narrowed down to two causes."
+
+
+def test_a_leak_outside_looks_like_one_to_the_inlet(study: Study, named: Diagnosis) -> None:
+    """Without an inlet flow a leak of the line behind the pump is not told from one inside: the bench is looked at."""
+    claim = replace(named.effects[0], effect=E.PORT_SHORT_CIRCUIT, pair=None, equivalent=(), elsewhere=())
+    own = its_study(named)
+    for channels, told in ((own.channels, True), ((*own.channels, ChannelName.Q_IN), False)):
+        (look,) = inspections(replace(named, effects=(claim,)), channels)
+        assert ("relief valve and fittings, too" in look.text) is told
+
+
 def test_agreement_that_is_not_sure_asks_for_what_would_show_more(named: Diagnosis) -> None:
     """Meters, axes and dimensions that are missing, where half of such answers missed an effect; else nothing."""
     found = agreeing(named)
@@ -213,6 +237,10 @@ def test_cost_is_told_where_a_finding_shows_most() -> None:
         "It costs 2.1 points of efficiency and 2.5 L/min of delivery and brings 0.5 L/min less case drain"
     )
     assert text.endswith("where it shows most (2100 r/min, 350 bar, 100 % stroke).")
+    gained = cost_words(PumpComparison({WITH: pump}, {}, changes[3:], ""))
+    assert "brings 0.5 L/min less case drain" in gained
+    assert gained.endswith("above all friction and clearances.")
+    assert "better than described" not in text
     assert "less than can be seen" in cost_words(PumpComparison({WITH: pump}, {}, changes[1:2], ""))
     assert cost_words(NO_COMPARISON) == ""
     reason = "A meter's fault costs the pump nothing: only the readings are wrong."
