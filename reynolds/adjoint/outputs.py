@@ -15,7 +15,7 @@ from reynolds.adjoint.solved import OutputSlopes, SolvedFilm, slopes_of
 from reynolds.errors import FilmInputError
 from reynolds.laws.contact import contact_pressure
 from reynolds.problem import FilmProblem
-from reynolds.solve.bearing import directions
+from reynolds.solve.bearing import directions, radius_around
 from reynolds.solve.loads import point_fields
 
 
@@ -161,13 +161,18 @@ class FrictionForceOutput:
 
 @dataclass(frozen=True)
 class FrictionTorqueOutput:
-    """Torque of oil and contact on a wall about the origin, N m."""
+    """Torque of oil and contact on a wall, N m: about the origin, or of a film whose x runs around a cylinder about its
+    axis, the force along x times the radius (m)."""
 
     wall: Wall = Wall.MOVING
+    radius: float | None = None
     unit: ClassVar[str] = "N m"
 
     def slopes(self, film: SolvedFilm) -> OutputSlopes:
         """As `Output`."""
+        if self.radius is not None:
+            turning = np.full((1, 1), self.radius), np.zeros((1, 1))
+            return shear_slopes(film, turning, on_moving=self.wall is Wall.MOVING)
         x, y, _ = film.space.points_in_space
         return shear_slopes(film, (-y, x), on_moving=self.wall is Wall.MOVING)
 
@@ -188,9 +193,10 @@ def output_names(problem: FilmProblem, *, around_cylinder: bool = False) -> dict
 
     load; contact_load of asperities; moment_x, moment_y; bearing_load in place of load and moments where the film's x
     runs once around a cylinder; flow.NAME of each boundary with a condition; friction, the
-    magnitude of the force on the moving wall, friction_x, friction_y, friction_torque, and friction_fixed_x,
-    friction_fixed_y, friction_fixed_torque of the fixed wall; dissipation.
+    magnitude of the force on the moving wall, friction_x, friction_y, friction_torque (around a cylinder about its
+    axis), and friction_fixed_x, friction_fixed_y, friction_fixed_torque of the fixed wall; dissipation.
     """
+    radius = radius_around(problem.space) if around_cylinder else None
     names: dict[str, Output] = {"bearing_load": BearingLoadOutput()} if around_cylinder else {"load": LoadOutput()}
     if problem.asperities is not None:
         names["contact_load"] = ContactLoadOutput()
@@ -200,5 +206,5 @@ def output_names(problem: FilmProblem, *, around_cylinder: bool = False) -> dict
     names["friction"] = FrictionForceOutput()
     for wall, stem in ((Wall.MOVING, "friction"), (Wall.FIXED, "friction_fixed")):
         names |= {f"{stem}_{axis.value}": FrictionOutput(axis, wall) for axis in Axis}
-        names[f"{stem}_torque"] = FrictionTorqueOutput(wall)
+        names[f"{stem}_torque"] = FrictionTorqueOutput(wall, radius)
     return names | {"dissipation": DissipationOutput()}

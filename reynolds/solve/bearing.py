@@ -1,4 +1,4 @@
-"""Load of a film unrolled from a full turn of a cylinder: the vector of a journal bearing."""
+"""Load and torque of a film unrolled from a full turn of a cylinder: those of a journal bearing."""
 
 from __future__ import annotations
 
@@ -23,9 +23,14 @@ class BearingLoad:
     attitude: float
 
 
+def radius_around(space: FilmSpace) -> float:
+    """Radius, m, of the cylinder around which the x of a film runs once."""
+    return float(np.ptp(space.vertices[:, 0])) / (2.0 * np.pi)
+
+
 def directions(space: FilmSpace) -> NDArray[np.complex128]:
     """Directions exp(2 pi i x/L) at the points (cells, points) of a film of length L whose x runs once around."""
-    return np.asarray(np.exp(2j * np.pi * space.points[0] / np.ptp(space.vertices[:, 0])))
+    return np.asarray(np.exp(1j * space.points[0] / radius_around(space)))
 
 
 def bearing_load(solution: FilmSolution) -> BearingLoad:

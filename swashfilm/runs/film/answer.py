@@ -116,7 +116,7 @@ def leak_words(flow: float, source: str = "its sides") -> str:
 def _limit_words(summary: Mapping[str, Any]) -> Iterator[str]:
     """Yield the limits of the film: cavities, contact, roughness, heat."""
     cavities, carried = summary["cavitated_area_fraction"], summary.get("contact_load_N", 0.0)
-    touching = carried > LEAST_SHARE * max(abs(summary["load_N"]), carried)
+    touching = carried > LEAST_SHARE * max(abs(summary[carried_key(summary)]), carried)
     if cavities > LEAST_SHARE:
         yield f"{_percent(cavities)} of its area cavitates."
     if touching:

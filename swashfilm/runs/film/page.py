@@ -79,7 +79,7 @@ def history_picture(history: Path) -> Figure:
     """Draw load, largest pressure, least film and temperature (if any) over time, from history.csv."""
     steps = read_columns(history)
     shown = [key for key in HISTORY if named(key)[0] in steps]
-    if "bearing_load_N" in shown:  # the integral over the unrolled plane is no load of a bearing
+    if "bearing_load_N" in shown and "load_N" in shown:  # of an earlier version: the integral of the unrolled plane
         shown.remove("load_N")
     figure = figure_of(8.0, 2.2 * len(shown))
     for axes, key in zip(figure.subplots(len(shown), 1, sharex=True), shown, strict=True):

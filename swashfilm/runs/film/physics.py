@@ -12,6 +12,7 @@ import numpy as np
 from reynolds.laws.contact import contact_area, lambda_ratio
 from reynolds.laws.roughness import beyond_range
 from reynolds.solve.rubbing import rubbing
+from swashfilm.case.tables.film import Geometry
 from swashfilm.output.data.files import column_of, write_columns
 from swashfilm.runs.film.solve.transient import Moment
 
@@ -82,7 +83,8 @@ def _rough_summary(study: FilmStudy) -> dict[str, Any]:
         contact = rubbing(film, problem.asperities, gap, area.shape)
         found["contact_load_N"] = study.loads.contact_load
         both = study.loads.contact_load + study.loads.load
-        found["carried_load_N"] = both
+        if study.geometry is not Geometry.CYLINDER:
+            found["carried_load_N"] = both
         found["contact_load_fraction"] = study.loads.contact_load / both if both > 0.0 else None
         found["contact_pressure_max_Pa"] = float(np.max(contact.pressure))
         found["contact_friction_N"] = float(np.sum(contact.friction * area))
@@ -93,18 +95,19 @@ def _rough_summary(study: FilmStudy) -> dict[str, Any]:
 def history_columns(history: Sequence[Moment]) -> dict[str, list[float]]:
     """Return headline numbers of every step of a transient, by key; `time_s` first."""
     columns = {"time_s": [step.time for step in history]}
+    if not history[0].bearing:  # of a film unrolled from a cylinder the integral is no force
+        columns["load_N"] = [step.loads.load for step in history]
     for key, of in (
-        ("load_N", lambda loads: loads.load),
         ("pressure_max_Pa", lambda loads: loads.pressure_max),
         ("film_thickness_min_m", lambda loads: loads.film_thickness_min),
         ("cavitated_area_fraction", lambda loads: loads.cavitated_area_fraction),
         ("friction_force_moving_N.x", lambda loads: loads.friction_moving[0]),
         ("friction_force_moving_N.y", lambda loads: loads.friction_moving[1]),
-        ("friction_torque_moving_Nm", lambda loads: loads.friction_torque_moving),
         ("dissipation_W", lambda loads: loads.dissipation),
         ("mass_balance_error", lambda loads: loads.mass_balance_error),
     ):
         columns[key] = [of(step.loads) for step in history]
+    columns["friction_torque_moving_Nm"] = [step.friction_torque for step in history]
     bearings = [step.bearing for step in history if step.bearing]
     if bearings:
         columns["bearing_load_N"] = [one.size for one in bearings]

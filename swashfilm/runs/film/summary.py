@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from reynolds.problem import FilmSolution
-from reynolds.solve.bearing import BearingLoad, bearing_load
+from reynolds.solve.bearing import bearing_load, radius_around
 from reynolds.solve.export import vertex_fields
-from reynolds.solve.loads import point_fields
+from reynolds.solve.loads import Loads, point_fields
 from swashfilm.case.tables.film import Geometry
 from swashfilm.formats.versions import headed
 from swashfilm.runs.film.physics import physics_summary, temperatures
@@ -18,6 +18,7 @@ from swashfilm.runs.film.sensitivity import sensitivity_fields, sensitivity_summ
 from swashfilm.runs.film.solve.gap import gap_summary
 from swashfilm.runs.film.solve.loaded import load_summary
 from swashfilm.runs.film.solve.study import FilmStudy
+from swashfilm.runs.film.solve.torque import friction_torque
 from swashfilm.runs.film.validity import film_warnings
 
 if TYPE_CHECKING:
@@ -30,17 +31,17 @@ LARGEST_COEFFICIENT = 1e6  # of friction; beyond, the load is round-off of the s
 def film_summary(study: FilmStudy) -> dict[str, Any]:
     """Return headline numbers of a film in SI, the unit in the key, and checks of the solver.
 
-    Forces and moments as in `reynolds.solve.loads.Loads`; leakage_flow is the total flow out of the film.
+    Forces and moments as in `reynolds.solve.loads.Loads`, around a cylinder load and torque of its axis;
+    leakage_flow is the total flow out of the film.
     """
     solution, integrals = study.solution, study.loads
-    bearing = _bearing(bearing_load(solution)) if study.geometry is Geometry.CYLINDER else {}
+    around = study.geometry is Geometry.CYLINDER
+    bearing = _bearing(solution) if around else {}
     supported = bearing.get("bearing_load_N", integrals.load + integrals.contact_load)
     return {
         **headed("film"),
         "name": study.name,
-        "load_N": integrals.load,
-        "moment_x_Nm": integrals.moment_x,
-        "moment_y_Nm": integrals.moment_y + 0.0,  # no negative zero
+        **({} if around else _plane_loads(integrals)),
         "pressure_max_Pa": integrals.pressure_max,
         "pressure_max_at_m": list(integrals.pressure_max_at),
         "film_thickness_min_m": integrals.film_thickness_min,
@@ -48,7 +49,7 @@ def film_summary(study: FilmStudy) -> dict[str, Any]:
         "leakage_flow_m3_per_s": sum(max(flow, 0.0) for flow in integrals.flow.values()),
         "friction_force_moving_N": list(integrals.friction_moving),
         "friction_force_fixed_N": list(integrals.friction_fixed),
-        "friction_torque_moving_Nm": integrals.friction_torque_moving,
+        "friction_torque_moving_Nm": friction_torque(solution, integrals, study.geometry),
         "dissipation_W": integrals.dissipation,
         **bearing,
         **_stribeck(solution, supported),
@@ -70,8 +71,22 @@ def film_summary(study: FilmStudy) -> dict[str, Any]:
     }
 
 
-def _bearing(load: BearingLoad) -> dict[str, float]:
-    return {"bearing_load_N": load.size, "attitude_angle_deg": float(np.degrees(load.attitude))}
+def _plane_loads(integrals: Loads) -> dict[str, float]:
+    """Return the load of a plane film, which of one unrolled from a cylinder is no force."""
+    return {
+        "load_N": integrals.load,
+        "moment_x_Nm": integrals.moment_x,
+        "moment_y_Nm": integrals.moment_y + 0.0,  # no negative zero
+    }
+
+
+def _bearing(solution: FilmSolution) -> dict[str, float]:
+    load = bearing_load(solution)
+    return {
+        "bearing_load_N": load.size,
+        "attitude_angle_deg": float(np.degrees(load.attitude)),
+        "cylinder_radius_m": radius_around(solution.problem.space),
+    }
 
 
 def _stribeck(solution: FilmSolution, supported: float) -> dict[str, float | None]:

@@ -55,6 +55,24 @@ def test_the_sensitivity_of_a_journal_is_that_of_its_load_as_a_vector(tmp_path, 
     assert "bearing_load" in told
 
 
+@pytest.mark.parametrize("origin", ["0 mm", "-5 mm", "40 mm"])
+def test_the_friction_torque_is_that_about_the_axis_wherever_the_sheet_lies(origin):
+    """T = F R and T omega = heat; the unrolled sheet has neither load nor moments."""
+    text = LONG.replace("RATIO", "e").replace("[boundary]", "[constants]\ne = 0.5\n[boundary]", 1)
+    moved = text.replace("cells = [256, 2]", f'cells = [256, 2], origin = ["{origin}", "{origin}"]')
+    outputs = "friction_torque,friction_x"
+    found = sf.film(moved, sensitivity=outputs).summary
+    torque = found["friction_torque_moving_Nm"]
+    assert found["cylinder_radius_m"] == pytest.approx(RADIUS, rel=1e-12)
+    assert torque == pytest.approx(RADIUS * found["friction_force_moving_N"][0], rel=1e-12)
+    assert torque * SPEED / RADIUS == pytest.approx(-found["dissipation_W"], rel=1e-9)
+    slopes = found["sensitivity"]["outputs"]
+    assert slopes["friction_torque_Nm"]["value"] == pytest.approx(torque, rel=1e-12)
+    by_force = RADIUS * slopes["friction_x_N"]["by_constants.e"]
+    assert slopes["friction_torque_Nm"]["by_constants.e"] == pytest.approx(by_force, rel=1e-9)
+    assert not {"load_N", "moment_x_Nm", "moment_y_Nm", "carried_load_N"} & set(found)
+
+
 def test_a_journal_over_time_keeps_its_load_as_a_vector(tmp_path):
     """Without squeeze and cavity each step is the steady film: history and range over time are Sommerfeld's load."""
     case = tmp_path / "journal.toml"
@@ -66,6 +84,8 @@ def test_a_journal_over_time_keeps_its_load_as_a_vector(tmp_path):
     for end in ("min", "max"):
         assert summary[f"load_of_time_{end}_N"] == pytest.approx(summary["bearing_load_N"], rel=1e-9)
     assert steps["bearing load"][-1] == pytest.approx(summary["bearing_load_N"], rel=1e-6)
+    assert steps["friction torque moving"][-1] == pytest.approx(summary["friction_torque_moving_Nm"], rel=1e-6)
+    assert "load" not in steps
     assert steps["attitude angle"][-1] == pytest.approx(math.radians(90.0), abs=1e-6)
 
 

@@ -16,6 +16,7 @@ from reynolds.thermal.energy import FilmTemperature
 from swashfilm.case.problem import film_problem
 from swashfilm.case.tables.film import Geometry
 from swashfilm.runs.film.solve.oil import film_of, heat_of, oil_solver
+from swashfilm.runs.film.solve.torque import friction_torque
 from system.work.progress import Report
 
 if TYPE_CHECKING:
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
 class Moment:
     """The film at a time (s): its integrals; for a written film its solution and temperature.
 
-    bearing: the load as a vector, of a film around a cylinder.
+    friction_torque: on the moving wall, N m; bearing: the load as a vector, of a film around a cylinder.
     """
 
     time: float
@@ -34,6 +35,7 @@ class Moment:
     heat: FilmTemperature | None
     temperature_max: float | None
     loads: Loads
+    friction_torque: float
     bearing: BearingLoad | None = None
 
     @property
@@ -69,12 +71,11 @@ def transient(stated: FilmStatement, report: Report) -> list[Moment]:
             film, heat = film_of(instant.solution), heat_of(instant.solution)
             hottest = None if heat is None else float(heat.highest.max())
             is_kept = stated.time.is_output(instant.time, instant.step)
-            bearing = bearing_load(film) if stated.film.geometry is Geometry.CYLINDER else None
-            found.append(
-                Moment(
-                    instant.time, film if is_kept else None, heat if is_kept else None, hottest, loads(film), bearing
-                )
-            )
+            geometry, integrals = stated.film.geometry, loads(film)
+            bearing = bearing_load(film) if geometry is Geometry.CYLINDER else None
+            torque = friction_torque(film, integrals, geometry)
+            kept = film if is_kept else None
+            found.append(Moment(instant.time, kept, heat if is_kept else None, hottest, integrals, torque, bearing))
             report(stated.time.number(instant.time), stated.time.steps, f"t = {instant.time:.4g} s")
     except FilmNotConverged as reason:
         raise FilmNotConverged(f"at t = {now:.6g} s: {reason.what}", f"a smaller step; {reason.remedy}") from None
