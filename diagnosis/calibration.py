@@ -21,7 +21,7 @@ from diagnosis.study.scaled.levels import at_level
 from diagnosis.thresholds import Thresholds, load_thresholds
 from diagnosis.verdict.suspects import unexplained
 from reynolds.errors import InputError, NotConverged
-from system.bench.calibration.equation_21 import EqFit, eq_fits, eq_twenty_one, measured_losses, paper_priors
+from system.bench.calibration.equation_21 import EqFit, eq_fits, eq_twenty_one, measured_losses, unstated_priors
 from system.bench.calibration.extended_pump import calibrated_pump
 from system.bench.calibration.held_out import HeldOutRow, model_rows, physics_rows
 from system.bench.calibration.hersey_curve import HerseyCurve, hersey_curves
@@ -58,10 +58,10 @@ class Hersey:
 class Calibration:
     """A pump calibrated by a recording, without missing physics.
 
-    fit: base and sensor parameters, friction within the paper's ranges, constant; hersey: None if not requested or
-    without a fit; undetermined: combinations of parameters that `best` leaves to the priors; equation: Eq. (21) by
-    itself, mixed: of coefficients that include the films' shear; rows: `best` and loss models in the same splits;
-    assumptions: of the pump; notes: assumptions of the recording, and parts that could not be fitted.
+    fit: base and sensor parameters, friction constant, without a stated sigma within the paper's ranges; hersey: None
+    if not requested or without a fit; undetermined: combinations of parameters that `best` leaves to the priors;
+    equation: Eq. (21) by itself, mixed: of coefficients that include the films' shear; rows: `best` and loss models in
+    the same splits; assumptions: of the pump; notes: assumptions of the recording, and parts that could not be fitted.
     """
 
     pump: PumpDescription
@@ -146,12 +146,13 @@ def calibrate(
 def _prepared(
     known: KnownPump, recording: Recording, with_hersey: bool, thresholds: Thresholds
 ) -> tuple[Study, LumpedBench, list[str]]:
-    """The study with the paper's priors of friction, its bench, and the notes."""
+    """The study with the paper's priors of friction where [tolerance] states none, its bench, and the notes."""
     catalogue, pump = (entry_of(EffectId.MIXED_FRICTION),) if with_hersey else (), known.pump
     allowed, taken = tolerances(pump)
     plain = prepare(pump, replace(recording, traces=()), allowed, thresholds, ())
     refuse_too_few(plain)
-    priors, assumed = paper_priors(pump)
+    priors, assumed = unstated_priors(pump)
+    taken = tuple(one for one in taken if not one.path.endswith("friction"))  # `assumed` has theirs
     parameters = plain.simulator.with_parameters(priors).parameters
     points, _ = bench_points(plain.recording, pump)
     channels = tuple(ChannelName.named(one.name) for one in plain.observations.channels)

@@ -179,11 +179,15 @@ def _fluid(pump: PumpDescription, tolerances: Tolerances) -> tuple[Parameter, ..
     )  # fmt: skip
 
 
+def friction_key(pair: str) -> str:
+    """The key of [tolerance] with one sigma of a pair's friction coefficient."""
+    return "guide_friction" if pair == GUIDE else "bearing_friction" if pair in BEARINGS else "friction"
+
+
 def _frictions(pump: PumpDescription, tolerances: Tolerances) -> tuple[Parameter, ...]:
     found = []
     for pair in FRICTION_PAIRS:
-        spread = tolerances.bearing_friction if pair in BEARINGS else tolerances.friction
-        spread = tolerances.guide_friction if pair == GUIDE else spread
+        spread = getattr(tolerances, friction_key(pair))
         if (centre := getattr(pump.friction, pair)) > 0.0:
             found.append(replace(_relative(f"friction.{pair}", centre, spread, None), power=1.0))
     return tuple(found)

@@ -27,8 +27,8 @@ if TYPE_CHECKING:
 
 TABLES = ("parameters", "undetermined", "equation_21", "hersey", "heldout", "residuals")
 FILES = ("summary.json", *(f"{name}.csv" for name in TABLES))
-PARAMETER_HEAD = ("parameter", "assumed before", "fitted", "by the recording")
-STATISTICS_HEAD = ("parameter", "name in the tables", "sigma / prior sigma", "source of the prior")
+PARAMETER_HEAD = ("parameter", "assumed before", "assumed by", "fitted", "by the recording")
+STATISTICS_HEAD = ("parameter", "name in the tables", "sigma / prior sigma")
 Row = Mapping[str, str]
 
 
@@ -53,7 +53,7 @@ def write_calibrate_page(folder: Path) -> Path:
         statistics=[*statistics(summary, parameters)],
         statistics_head=STATISTICS_HEAD,
         details=[
-            (parameter_words(row["name"]), row["name"], f"{float(row['sigma_over_prior [1]']):.2f}", row["source"])
+            (parameter_words(row["name"]), row["name"], f"{float(row['sigma_over_prior [1]']):.2f}")
             for row in parameters
         ],
         pictures=pictures,
@@ -87,9 +87,9 @@ def statistics(own: Mapping[str, Any], parameters: Sequence[Row]) -> Iterator[st
 
 
 def parameter_rows(rows: Iterable[Row]) -> Iterator[tuple[str, ...]]:
-    """Yield (parameter, assumed before, fitted, degree of determination), the best determined first."""
+    """Yield (parameter, assumed before, source of that, fitted, degree of determination), the best determined first."""
     for row in sorted(rows, key=lambda row: float(row["sigma_over_prior [1]"])):
-        yield parameter_words(row["name"]), assumed_text(row), fitted_text(row), how_far(row)
+        yield parameter_words(row["name"]), assumed_text(row), row["source"], fitted_text(row), how_far(row)
 
 
 def pair_table(folder: Path) -> list[tuple[str, ...]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,9 +11,11 @@ from numpy.typing import NDArray
 from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
 from system.bench.outputs import losses
+from system.bench.parameters import friction_key
 from system.bench.points import BenchPoints
 from system.bench.setting import Setting
 from system.bench.simulator import LumpedBench
+from system.description.drawing import drawn_sigmas
 from system.description.pump import PumpDescription
 from system.estimation.fit import maximum_posterior
 from system.estimation.folds import levels
@@ -44,24 +46,39 @@ RANK_NOISE = 1e-3  # of the loss: no bench is better
 BEYOND = 2.0  # times the range's ends: no coefficient is looked for farther away
 
 
-def paper_priors(pump: PumpDescription) -> tuple[tuple[Parameter, ...], tuple[str, ...]]:
-    """friction.PAIR of a pump about its coefficients, as wide as the paper's ranges, and notes.
+def paper_priors(
+    pump: PumpDescription, pairs: Iterable[Pair] = tuple(RANGES)
+) -> tuple[tuple[Parameter, ...], tuple[str, ...]]:
+    """friction.PAIR of these pairs about the pump's coefficients, as wide as the paper's ranges, and notes.
 
     On a logarithmic scale: one sigma is half the range, the bounds are BEYOND its ends. A coefficient of 0 has no
-    parameter; one outside the bounds is of another kind of pair than the paper's and keeps its [tolerance], with a
-    note.
+    parameter; one outside the bounds is of another kind of pair than the paper's and keeps its sigma, with a note.
     """
     found: list[Parameter] = []
     notes: list[str] = []
-    for pair, (low, high) in RANGES.items():
+    for pair in pairs:
+        low, high = RANGES[pair]
         centre, lower, upper = getattr(pump.friction, pair.value), low / BEYOND, high * BEYOND
         name, spread = f"friction.{pair.value}", 0.5 * float(np.log(high / low))
         if lower < centre < upper:
             source = f"the paper's {low:g} to {high:g}"
             found.append(Parameter(name, Role.BASE, Scale.LOG, centre, spread, lower, upper, None, source))
         elif centre > 0.0:
-            notes.append(f"{name}: {centre:g} is far from the paper's {low:g} to {high:g}; its [tolerance] stays")
+            notes.append(f"{name}: {centre:g} is far from the paper's {low:g} to {high:g}; sigma as in a diagnosis")
     return tuple(found), tuple(notes)
+
+
+def unstated_priors(pump: PumpDescription) -> tuple[tuple[Parameter, ...], tuple[str, ...]]:
+    """`paper_priors` of the coefficients that have no sigma in the pump's [tolerance], and a note of each."""
+    drawn = drawn_sigmas(pump)
+    left = [
+        pair
+        for pair in RANGES
+        if getattr(pump.tolerance, friction_key(pair.value)) is None and f"friction.{pair.value}" not in drawn
+    ]
+    priors, notes = paper_priors(pump, left)
+    told = (f"{one.name}: [tolerance] states no sigma; assumed as uncertain as {one.source}" for one in priors)
+    return priors, (*told, *notes)
 
 
 @dataclass(frozen=True)

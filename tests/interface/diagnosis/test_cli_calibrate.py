@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import csv
 import json
+import re
 from dataclasses import replace
+from importlib.resources import files
 from itertools import product
 from pathlib import Path
 
@@ -116,9 +118,15 @@ def test_friction_over_the_hersey_number_is_found_where_it_is(tmp_path: Path) ->
     """Boundary friction of .05 in the slippers that speed takes away: odds above three nats, and a curve."""
     law = entry_of(EffectId.MIXED_FRICTION).extensions[0].members[3]
     recording, out = _made(tmp_path / "made", law), tmp_path / "out"
-    words = ["calibrate", "ref90", str(recording), *WIDE, "-o", str(out), "--models", "none"]
-    assert main(words) == 0
+    stated = files("system.description").joinpath("pumps", "ref90.toml").read_text("utf-8")
+    pump = tmp_path / "unstated.toml"
+    pump.write_text(re.sub(r"(?m)^(guide_|bearing_|)friction = .*\n", "", stated), "utf-8")
+    assert main(["calibrate", str(pump), str(recording), "-o", str(out), "--models", "none"]) == 0
+    found = {row["name"]: row["source"] for row in _table(out, "parameters.csv")}
+    assert found["friction.slipper_swash_plate"] == "the paper's 0.008 to 0.03"
     summary = json.loads((out / "summary.json").read_text("utf-8"))
+    assert any("[tolerance] states no sigma" in note for note in summary["notes"])
+    assert not any("tolerance.friction" in note for note in summary["notes"])
     assert summary["hersey"]["supported"]
     assert any("constant friction coefficients" in note and "given up" in note for note in summary["notes"])
     assert _table(out, "heldout.csv") == []

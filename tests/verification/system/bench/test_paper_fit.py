@@ -10,7 +10,16 @@ import numpy as np
 import pytest
 
 from system import INPUTS, SIMULATED, BenchPoints, Channel, LumpedBench, Observations, load_pump, maximum_posterior
-from system.bench.calibration.equation_21 import EqTwentyOne, eq_fits, eq_twenty_one, measured_losses, paper_priors
+from system.bench.calibration.equation_21 import (
+    EqTwentyOne,
+    eq_fits,
+    eq_twenty_one,
+    measured_losses,
+    paper_priors,
+    unstated_priors,
+)
+from system.description.tolerance import DrawnSection, Shape
+from system.pump.laws.friction_pairs import Pair
 
 PUMP = load_pump("ref90")
 GRID = np.array(list(product((1000, 1700, 2100), (5e6, 10e6, 15e6, 20e6, 25e6, 30e6, 35e6), (0.28, 0.51, 1.0))))
@@ -185,3 +194,15 @@ def test_the_noise_of_the_loss_is_that_of_its_readings() -> None:
         draws.append(measured_losses(replace(few, **moved), replace(observed, values=drawn)).values[:, 0])
     scatter = np.std(draws, axis=0, ddof=1)
     assert np.all(np.abs(scatter / stated - 1.0) < 4.0 / np.sqrt(2 * 299))
+
+
+def test_the_papers_ranges_stand_only_where_no_tolerance_is_stated() -> None:
+    """A sigma of [tolerance], of its key or of the drawing, keeps its coefficients from the paper's ranges."""
+    drawn = DrawnSection(key="friction.piston_cylinder", shape=Shape.NORMAL, sigma="0.002")
+    part = replace(PUMP.tolerance, friction=None, bearing_friction=None, dimension=(drawn,))
+    priors, told = unstated_priors(replace(PUMP, tolerance=part))
+    names = {one.name.rpartition(".")[2] for one in priors}
+    stated = {"ball_guide_retainer", "piston_cylinder"}
+    assert names == {pair.value for pair in Pair} - stated
+    assert all("the paper's" in note for note in told)
+    assert unstated_priors(PUMP) == ((), ())
