@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.recording.model import Circuit, DataNote, NoteKind, Recording
+from diagnosis.recording.missing_inputs import Origin, origin
+from diagnosis.recording.model import DataNote, NoteKind, Recording
 from diagnosis.recording.units import channel_unit, difference, difference_unit, reading
 from reynolds.numerics.arrays import Array
 from system.bench.points import BenchPoints
@@ -87,8 +88,7 @@ def _of_points(recording: Recording, points: NDArray[np.int64]) -> Recording:
 def assumed_inputs(recording: Recording, pump: PumpDescription) -> tuple[AssumedInput, ...]:
     """Assumed value of every input that the recording lacks.
 
-    The pump's [operating]; in an open circuit the ambient pressure for the inlet pressure; of case and inlet
-    temperature the one for the other.
+    Its value is that of its `origin`.
     """
     known = measured(recording, INPUTS)
     return tuple(_assumed_input(recording, pump, name, known) for name in INPUTS if name not in known)
@@ -117,7 +117,11 @@ def bench_points(recording: Recording, pump: PumpDescription) -> tuple[BenchPoin
 def _assumed_input(
     recording: Recording, pump: PumpDescription, name: ChannelName, known: tuple[ChannelName, ...]
 ) -> AssumedInput:
-    stated = pump.operating
+    stated, where = pump.operating, origin(name, known, recording.circuit)
+    if isinstance(where, ChannelName):
+        return AssumedInput(name, where, WARMER)
+    if where is Origin.AMBIENT:
+        return AssumedInput(name, 0.0, TANK)
     match name:
         case ChannelName.SPEED:
             return AssumedInput(name, stated.speed, DRIVE * stated.speed)
@@ -125,14 +129,9 @@ def _assumed_input(
             return AssumedInput(name, stated.displacement_ratio, SETTING)
         case ChannelName.P_OUT:
             return AssumedInput(name, stated.pressure, RELIEF * stated.pressure)
-        case ChannelName.P_IN if recording.circuit is Circuit.OPEN:
-            return AssumedInput(name, 0.0, TANK)
         case ChannelName.P_IN:
             return AssumedInput(name, stated.inlet_pressure, max(RELIEF * stated.inlet_pressure, TANK))
         case ChannelName.P_CASE:
             return AssumedInput(name, stated.case_pressure, DRAIN)
         case _:
-            other = ChannelName.T_IN if name is ChannelName.T_CASE else ChannelName.T_CASE
-            return (
-                AssumedInput(name, other, WARMER) if other in known else AssumedInput(name, stated.temperature, WARMTH)
-            )
+            return AssumedInput(name, stated.temperature, WARMTH)

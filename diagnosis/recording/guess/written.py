@@ -9,6 +9,7 @@ import numpy as np
 
 from diagnosis.recording.channel_form import PressureReference
 from diagnosis.recording.guess.channels import GuessedChannel, GuessedColumns, guessed_columns
+from diagnosis.recording.missing_inputs import origin
 from diagnosis.recording.model import Circuit
 from diagnosis.recording.replicates import FEWEST
 from diagnosis.recording.tables.table import TableColumns, TableSource
@@ -43,14 +44,15 @@ def guessed_recording(source: TableSource, table: TableColumns, circuit: Circuit
     """
     columns = guessed_columns(table)
     series = _is_series(columns, table)
-    absent = _missing(columns)
+    found, of_circuit = _circuit(circuit, columns, table.values)
+    absent = _missing(columns, found)
     reference = next((one.reference for one in columns.channels if one.reference), None)
     rows = [
         f'# Recording of {source.path.name}. What is marked "guessed" or "assumed" the table does not tell: hold it',
         "# against the bench, correct it and delete the mark. swashfilm check shows the recording as it is read.",
         "format = 1",
         _line(f"title = {quoted(source.path.stem)}", "of the report"),
-        _circuit_line(circuit, columns, table.values),
+        _line(f"circuit = {quoted(found.value)}", of_circuit),
         _reference_line(reference),
         *_section(source, columns, table, series),
         *_channel_rows(columns, table.values, reference, series),
@@ -73,15 +75,16 @@ def _is_series(columns: GuessedColumns, table: TableColumns) -> bool:
     return bool(np.all(steps > 0.0) and np.median(steps) <= SERIES_STEP)
 
 
-def _circuit_line(circuit: Circuit | None, columns: GuessedColumns, values: Mapping[str, Array]) -> str:
+def _circuit(circuit: Circuit | None, columns: GuessedColumns, values: Mapping[str, Array]) -> tuple[Circuit, str]:
+    """Return the circuit, and its origin in words."""
     if circuit is not None:
-        return _line(f"circuit = {quoted(circuit.value)}", "or open, closed")
+        return circuit, "or open, closed"
     inlet = next((one for one in columns.channels if one.name is ChannelName.P_IN), None)
     if inlet is None:
-        return _line(f"circuit = {quoted(Circuit.OPEN.value)}", "guessed: no inlet pressure; or closed")
+        return Circuit.OPEN, "guessed: no inlet pressure; or closed"
     middle = _median(values[inlet.column]) * unit_scale(inlet.unit, Dimension.PRESSURE)[0]
-    found = Circuit.CLOSED if middle > CHARGED else Circuit.OPEN
-    return _line(f"circuit = {quoted(found.value)}", f"guessed: by the inlet pressure, {middle * 1e-5:.3g} bar")
+    words = f"guessed: by the inlet pressure, {middle * 1e-5:.3g} bar"
+    return Circuit.CLOSED if middle > CHARGED else Circuit.OPEN, words
 
 
 def _reference_line(reference: PressureReference | None) -> str:
@@ -145,10 +148,11 @@ def _median(readings: Array) -> float:
     return float(np.median(known)) if len(known) else 0.0
 
 
-def _missing(columns: GuessedColumns) -> list[str]:
+def _missing(columns: GuessedColumns, circuit: Circuit) -> list[str]:
     """Return data for a diagnosis that the table lacks."""
     names = {one.name for one in columns.channels}
-    lines = [f"{name.value}, taken from the pump file" for name in INPUTS if name not in names]
+    taken = {name: origin(name, names, circuit).value for name in INPUTS if name not in names}
+    lines = [f"{name.value}, taken from {where}" for name, where in taken.items()]
     return lines + [f"{name.value}, not compared" for name in OUTPUTS if name not in names]
 
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 import re
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from datetime import datetime
+from functools import cache
 
 import numpy as np
 
@@ -25,6 +26,11 @@ SUMMARIES = frozenset({
 _POINT = re.compile(r"\s*[+-]?(\d+\.?\d*|\.\d+|\d{1,3}(,\d{3})+\.\d*)(e[+-]?\d+)?\s*", re.IGNORECASE)
 _IN_BRACKETS = re.compile(r"[\[(]([^\])]+)[\])]\s*$")
 _COMMA = re.compile(r"\s*[+-]?(\d+,?\d*|,\d+|\d{1,3}(\.\d{3})+,\d*)(e[+-]?\d+)?\s*", re.IGNORECASE)
+_NUMBER = {".": _POINT, ",": _COMMA}
+_PARTED = {".": re.compile(r"\s*[+-]?[1-9]\d{0,2}(,\d{3})+\s*"), ",": re.compile(r"\s*[+-]?[1-9]\d{0,2}(\.\d{3})+\s*")}
+"""Whole numbers with parted thousands, by the decimal sign of the table."""
+_BARE_THOUSANDS = re.compile(r"\s*[+-]?\d{4}")
+_OTHER = {".": ",", ",": "."}
 
 
 def columns_of(rows: Iterable[Sequence[object]], decimal: str) -> TableColumns:
@@ -60,11 +66,11 @@ def columns_of(rows: Iterable[Sequence[object]], decimal: str) -> TableColumns:
         body = body[:-below]
     if ragged := [k for k, row in enumerate(body, start=1) if len(row) != width]:
         raise TableFault(f"row {ragged[0]} below the head with {len(body[ragged[0] - 1])} cells", f"{width} cells")
-    values, words = {}, {}
+    values, words, signs = {}, {}, cache(lambda: decimal_cells(cell for row in body for cell in row))
     for place, name in enumerate(head):
         if name:
             cells = [row[place] for row in body]
-            values[name], note = _column(cells, decimal)
+            values[name], note = _column(cells, decimal, signs)
             notes += [f"column {name!r}: {note}"] if note else []
             if np.isnan(values[name]).all():
                 words[name] = tuple(map(str, cells))
@@ -80,7 +86,21 @@ def _summaries(body: Sequence[Sequence[object]]) -> int:
 
 def is_number(cell: str, decimal: str) -> bool:
     """True for the text of a number with this decimal sign; the other one may separate its thousands: 1.499,8."""
-    return (_COMMA if decimal == "," else _POINT).fullmatch(cell) is not None
+    return _NUMBER[decimal].fullmatch(cell) is not None
+
+
+def decimal_cells(cells: Iterable[object]) -> Mapping[str, int]:
+    """Number of cells that are numbers with one decimal sign alone, by that sign: not 1.500, which may be 1500."""
+    texts = [cell for cell in cells if isinstance(cell, str)]
+    return {
+        sign: sum(is_number(text, sign) and not (is_number(text, other) or _is_parted(text, other)) for text in texts)
+        for sign, other in _OTHER.items()
+    }
+
+
+def _is_parted(cell: object, decimal: str) -> bool:
+    """True for the text of a whole number with parted thousands: 1.500 where the decimal sign is a comma."""
+    return isinstance(cell, str) and _OTHER[decimal] in cell and _PARTED[decimal].fullmatch(cell) is not None
 
 
 def _bare(cell: object) -> object:
@@ -102,14 +122,17 @@ def _number(cell: object, decimal: str) -> float | None:
     if isinstance(cell, (int, float)):
         return float(cell)
     text = str(cell)
-    if not is_number(text, decimal):
+    if not is_number(text, decimal) and not _is_parted(text, decimal):
         return None
     return float(text.replace(".", "").replace(",", ".") if decimal == "," else text.replace(",", ""))
 
 
-def _column(cells: Sequence[object], decimal: str) -> tuple[Array, str]:
-    """A column's numbers, and notes on it."""
+def _column(cells: Sequence[object], decimal: str, signs: Callable[[], Mapping[str, int]]) -> tuple[Array, str]:
+    """A column's numbers, and notes on it; signs: `decimal_cells` of the table."""
     numbers = [_number(cell, decimal) for cell in cells]
+    parted = [_is_parted(cell, decimal) for cell in cells]
+    if any(parted) and not _parts_thousands(cells, decimal, signs()):
+        numbers = [None if apart else number for number, apart in zip(numbers, parted, strict=True)]
     has_number = any(number is not None for number in numbers)
     if not has_number and (told := seconds_of(cells)) is not None:
         return told[0], f"{told[1]}, taken as seconds from the first"
@@ -117,3 +140,16 @@ def _column(cells: Sequence[object], decimal: str) -> tuple[Array, str]:
     count = sum(n is None and str(c).lower() not in GAPS for c, n in zip(cells, numbers, strict=True))
     words = f"{count} cells that are no number taken as gaps ({', '.join(odd[:3])})" if odd else ""
     return np.array([math.nan if number is None else number for number in numbers], dtype=float), words
+
+
+def _parts_thousands(cells: Sequence[object], decimal: str, signs: Mapping[str, int]) -> bool:
+    """True for a column that parts the thousands of its whole numbers.
+
+    No cell with digits has four in a row before its decimal sign, or is a number of another form; the decimal sign is
+    that of the table by other cells, or whole numbers below a thousand stand beside.
+    """
+    texts = [cell for cell in cells if isinstance(cell, str) and any(sign.isdigit() for sign in cell)]
+    whole = [text for text in texts if not _is_parted(text, decimal)]
+    fits = all(is_number(text, decimal) and not _BARE_THOUSANDS.match(text) for text in whole)
+    shown = signs[decimal] > 0 or any(text.strip("+- ").isdigit() for text in whole)
+    return fits and shown and signs[decimal] >= signs[_OTHER[decimal]]

@@ -9,7 +9,7 @@ from collections import Counter
 from contextlib import suppress
 from dataclasses import replace
 
-from diagnosis.recording.tables.cells import columns_of, is_number
+from diagnosis.recording.tables.cells import columns_of, decimal_cells, is_number
 from diagnosis.recording.tables.table import TableColumns, TableFault, TableSource, foreign
 from reynolds.numerics.files import LARGEST_DATA, read_bounded
 
@@ -84,9 +84,9 @@ def _separator(lines: list[str]) -> str:
 
 
 def _decimal(lines: list[str], separator: str) -> str:
-    """The decimal sign with which more cells are numbers."""
+    """The decimal sign with which alone more cells are numbers; of equal ones that with which more cells are."""
     if separator == ",":
         return "."
     cells = [cell for row in csv.reader(lines, delimiter=separator) for cell in row if cell.strip()]
-    point, comma = (sum(is_number(cell, sign) for cell in cells) for sign in (".", ","))
-    return "," if comma > point else "."
+    alone, point, comma = decimal_cells(cells), *(sum(is_number(cell, sign) for cell in cells) for sign in (".", ","))
+    return "," if (alone[","], comma) > (alone["."], point) else "."

@@ -13,6 +13,7 @@ from diagnosis import read_recording
 from diagnosis.recording.guess.channels import guessed_columns
 from diagnosis.recording.tables.table import TableColumns
 from diagnosis.study.acceptance import checked_recording
+from diagnosis.study.inputs import assumed_inputs
 from swashfilm.__main__ import main
 from swashfilm.console.schemas import schema_of
 from system.inputs.channels import ChannelName
@@ -80,6 +81,31 @@ def test_heads_without_units_are_read_by_size_and_every_guess_is_marked(tmp_path
     assert all("guessed" in line for line in lines.values())
     assert "# not used: column 'nr'" in text
     assert "# missing: T_out" in text
+
+
+@pytest.mark.parametrize(
+    ("heads", "circuit", "taken"),
+    [
+        ({"n [rpm]": 1500, "T_case [degC]": 55}, None, {"T_in": "T_case", "p_in": "the ambient pressure"}),
+        ({"n [rpm]": 1500, "T_in [degC]": 50}, "closed", {"T_case": "T_in", "p_in": "the pump file"}),
+        ({"p_in [bar]": 25}, None, {"T_case": "the pump file", "T_in": "the pump file", "speed": "the pump file"}),
+    ],
+)
+def test_what_is_missing_is_told_by_the_value_that_a_diagnosis_takes(tmp_path, heads, circuit, taken):
+    columns = {"p_out [bar]": 200, "p_case [bar]": 1.5, "Q [l/min]": 100, **heads}
+    rows = [";".join(f"{size * (1.0 + 0.01 * k):.4f}" for size in columns.values()) for k in range(12)]
+    (tmp_path / "map.csv").write_text("\n".join([";".join(columns), *rows]), "utf-8")
+    text = sf.new("recording", tmp_path / "map.csv", **({} if circuit is None else {"circuit": circuit})).read_text(
+        "utf-8"
+    )
+    for name, where in taken.items():
+        assert f"# missing: {name}, taken from {where}\n" in text
+    pump = load_known_pump("ref90").pump
+    assumed = {one.channel.value: one.value for one in assumed_inputs(read_recording(tmp_path), pump)}
+    known = {"the ambient pressure": 0.0, "T_case": ChannelName.T_CASE, "T_in": ChannelName.T_IN}
+    assert {name: assumed[name] for name, where in taken.items() if where in known} == {
+        name: known[where] for name, where in taken.items() if where in known
+    }
 
 
 def test_a_time_series_is_taken_as_one(tmp_path):

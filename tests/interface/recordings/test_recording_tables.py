@@ -36,6 +36,61 @@ def test_text_tells_its_own_form(tmp_path, separator, decimal):
     assert _are_same(_read(path))
 
 
+@pytest.mark.parametrize(("decimal", "thousands"), [(",", "."), (".", ",")])
+@pytest.mark.parametrize("separator", [";", "\t"])
+def test_whole_numbers_may_part_their_thousands_too(tmp_path, separator, decimal, thousands):
+    """A speed of 1.500 beside one of 950, in any place of the table, also where no flow has a decimal sign below it."""
+    path = tmp_path / "steady.csv"
+    rows = [
+        ("speed", "Q", "V"),
+        ("1T500", "1D5", "1T499D8"),
+        ("2T000", "90D25", "12"),
+        ("950", "-", "1T234T567"),
+        ("0", "3", "over"),
+    ]
+    text = "\n".join(separator.join(row) for row in rows)
+    path.write_text(text.replace("D", decimal).replace("T", thousands), "utf-8")
+    columns = _read(path)
+    assert np.array_equal(columns.values["speed"], [1500.0, 2000.0, 950.0, 0.0])
+    assert np.array_equal(columns.values["Q"], [1.5, 90.25, np.nan, 3.0], equal_nan=True)
+    assert np.array_equal(columns.values["V"], [1499.8, 12.0, 1234567.0, np.nan], equal_nan=True)
+    assert [note for note in columns.notes if "no number" in note] == [
+        "column 'V': 1 cells that are no number taken as gaps (over)"
+    ]
+
+
+@pytest.mark.parametrize(
+    ("cells", "numbers"),
+    [
+        (["1.500", "1.5", "950"], [np.nan, np.nan, 950.0]),
+        (["1.500", "12345", "950"], [np.nan, 12345.0, 950.0]),
+        (["0.500", "1.500", "950"], [np.nan, np.nan, 950.0]),
+    ],
+)
+def test_what_does_not_part_thousands_throughout_is_no_number(tmp_path, cells, numbers):
+    """A point in a table with decimal commas: no cell is guessed, and a note names them."""
+    path = tmp_path / "steady.csv"
+    path.write_text("\n".join(["speed;Q;p", *(f"{cell};10,5;3,25" for cell in cells)]), "utf-8")
+    columns = _read(path)
+    assert np.array_equal(columns.values["speed"], numbers, equal_nan=True)
+    assert any("no number" in note and "1.500" in note for note in columns.notes)
+
+
+@pytest.mark.parametrize(
+    ("rows", "flow"),
+    [
+        ('Q,p\n"1,500","12,5"\n"2,250","13,5"\n950,14', [np.nan, np.nan, 950.0]),
+        ('Q,p\n"1,500",12.5\n"2,250",13.5\n950,14', [1500.0, 2250.0, 950.0]),
+        ('Q,p\n"1,500","1,250"\n"2,250","1,375"\n"3,125","1,500"', [np.nan] * 3),
+    ],
+)
+def test_quoted_cells_part_thousands_where_the_table_has_no_other_decimal_sign(tmp_path, rows, flow):
+    """Commas part the cells: a quoted comma is a decimal sign in other cells, parts thousands, or tells neither."""
+    path = tmp_path / "steady.csv"
+    path.write_text(rows, "utf-8")
+    assert np.array_equal(_read(path).values["Q"], flow, equal_nan=True)
+
+
 def test_loggers_put_lines_above_and_units_below_the_head(tmp_path):
     path = tmp_path / "run.csv"
     path.write_text(
