@@ -19,8 +19,8 @@ from swashfilm.runs.film.summary import film_summary
 from system.inputs.faults import Fault, InputFaults
 from system.work.progress import Report
 
-CHECKS = ("time_steps", "mass_balance_error_of_time")
-"""Numbers of a transient without a limit: a count, and round-off."""
+CHECKS = ("time_steps", "mass_balance_error_of_time", "cylinder_radius_m")
+"""Numbers without a limit: a count, round-off, and a size of the mesh."""
 
 
 def check_refinement(case: FilmCase | GapCase, meshes: int) -> None:
@@ -48,7 +48,7 @@ def refine_study(case: FilmCase | GapCase, study: FilmStudy, meshes: int, report
         report(number, meshes, f"mesh {number + 1} of {meshes}")
         case = case.refined()
         studies.append(solve_case(case))
-    rows = [_converging(film_summary(replace(one, sensitivity=None))) for one in studies]
+    rows = [_converging(case, film_summary(replace(one, sensitivity=None))) for one in studies]
     expected = expected_orders(studies[-1])
     size = sizes(rows[-1], natural_sizes(studies[-1].solution))
     return Refinement(
@@ -59,9 +59,23 @@ def refine_study(case: FilmCase | GapCase, study: FilmStudy, meshes: int, report
     )
 
 
-def _converging(summary: Mapping[str, Any]) -> dict[str, float]:
-    """Return the headline numbers of a summary that have a limit: no counts, and no checks of the solver."""
-    return {key: value for key, value in headline_numbers(summary).items() if key not in CHECKS}
+def _converging(case: FilmCase | GapCase, summary: Mapping[str, Any]) -> dict[str, float]:
+    """Return the headline numbers of a summary that have a limit: no counts, no checks, nothing that is given."""
+    left_out = {*CHECKS, *_given(case)}
+    return {key: value for key, value in headline_numbers(summary).items() if key not in left_out}
+
+
+def _given(case: FilmCase | GapCase) -> set[str]:
+    """Return the keys of the numbers that the case states and the solver balances: their error is its tolerance."""
+    if isinstance(case, GapCase):
+        return {"required_load_N", "carried_load_N"} if case.position is None else {"required_load_N"}
+    load = case.stated.film.rigid_load
+    if load is None:
+        return set()
+    # Of film and contact together: each of the two varies with the mesh.
+    alone = {"load_N"} if case.problem.asperities is None else set()
+    moments = {"moment_x_Nm": load.moment_x, "moment_y_Nm": load.moment_y}
+    return {"carried_load_N", *alone, *(key for key, moment in moments.items() if moment is not None)}
 
 
 def expected_orders(study: FilmStudy) -> tuple[float, float]:

@@ -69,6 +69,14 @@ def test_moments_free_the_tilts():
     assert summary["slope_y_rad"] == 0.0
 
 
+def test_what_a_film_balances_has_no_limit_over_meshes():
+    text = GOOD.replace('"rise*(1 - x/0.01)"', '"0 um"').replace('"20 N"', '"20 N"\nmoment_y = "-0.116 N m"')
+    assert main(["film", str(written(text.replace('rise = "10 um"\n', ""))), "--refine", "2", "-o", "run"]) == 0
+    found = json.loads(Path("run/summary.json").read_text("utf-8"))["refinement"]["numbers"]
+    assert {"separation_m", "slope_x_rad", "film_thickness_min_m", "moment_x_Nm"} <= set(found)
+    assert not {"load_N", "carried_load_N", "moment_y_Nm"} & set(found)
+
+
 def test_a_warm_film_settles_thinner():
     assert main(["film", str(written(GOOD)), "-o", "cold"]) == 0
     assert main(["film", str(written(GOOD + WARM)), "-o", "warm"]) == 0
