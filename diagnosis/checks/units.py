@@ -226,10 +226,10 @@ def _references(recording: Recording) -> Iterator[DataNote]:
             yield DataNote(NoteKind.FAULT, name, (), text)
         elif name is ChannelName.P_IN and recording.circuit is Circuit.OPEN and middle > CHARGED:
             text = f"p_in of an open circuit is {middle / 1e5:.1f} bar gauge, above any tank's; circuit = 'closed'?"
-            yield DataNote(NoteKind.NOTED, name, (), text)
+            yield DataNote(NoteKind.WARNED, name, (), text)
         elif name is ChannelName.P_IN and recording.circuit is Circuit.OPEN and abs(middle - 1e5) < 0.15e5:
             text = f"p_in of an open circuit is {middle / 1e5:.2f} bar gauge: an absolute pressure taken as gauge?"
-            yield DataNote(NoteKind.NOTED, name, (), text)
+            yield DataNote(NoteKind.WARNED, name, (), text)
 
 
 def _places(recording: Recording) -> Iterator[DataNote]:
@@ -246,7 +246,7 @@ def _places(recording: Recording) -> Iterator[DataNote]:
     share = _median(lost)
     if share is not None and share < -0.3:
         text = "Q_in is below Q_out at half of the points, while oil leaves by the case: are they swapped?"
-        yield DataNote(NoteKind.NOTED, ChannelName.Q_IN, (), text)
+        yield DataNote(NoteKind.WARNED, ChannelName.Q_IN, (), text)
 
 
 def _signs(recording: Recording) -> Iterator[DataNote]:
@@ -259,22 +259,22 @@ def _signs(recording: Recording) -> Iterator[DataNote]:
 
 
 def _case(recording: Recording) -> Iterator[DataNote]:
-    """Notes on unusual pressures and temperatures of the case and of the drain."""
+    """Warnings of unusual pressures and temperatures of the case and of the drain."""
     steady = recording.steady
     pressure = _median(steady.column(ChannelName.P_CASE))
     if pressure is not None and not CASE_PRESSURE[0] <= pressure <= CASE_PRESSURE[1]:
         way = "a gauge pressure taken as absolute" if pressure < 0.0 else "another unit"
         text = f"p_case is {pressure / 1e5:.3g} bar gauge at half of the points: {way}?"
-        yield DataNote(NoteKind.NOTED, ChannelName.P_CASE, (), text)
+        yield DataNote(NoteKind.WARNED, ChannelName.P_CASE, (), text)
     for name in (ChannelName.T_IN, ChannelName.T_CASE):
         middle = _median(steady.column(name))
         if middle is not None and middle > HOTTEST:
             text = f"{name.value} is {middle - 273.15:.3g} degC at half of the points; unit = 'degF'?"
-            yield DataNote(NoteKind.NOTED, name, (), text)
+            yield DataNote(NoteKind.WARNED, name, (), text)
     warmer = _median(steady.column(ChannelName.T_CASE) - steady.column(ChannelName.T_IN))
     if warmer is not None and not DRAIN_WARMER[0] <= warmer <= DRAIN_WARMER[1]:
         text = f"T_case less T_in is {warmer:+.3g} K at half of the points: a wrong unit, or are they swapped?"
-        yield DataNote(NoteKind.NOTED, ChannelName.T_CASE, (), text)
+        yield DataNote(NoteKind.WARNED, ChannelName.T_CASE, (), text)
 
 
 def trace_sizes(recording: Recording) -> Iterator[DataNote]:

@@ -28,6 +28,10 @@ class ColumnReader:
         """Add a note on the data."""
         self.notes.append(DataNote(NoteKind.NOTED, None, (), text))
 
+    def warn(self, text: str) -> None:
+        """Add a warning on the data, which is told first."""
+        self.notes.append(DataNote(NoteKind.WARNED, None, (), text))
+
     def columns(self, section: str, source: TableSource) -> TableColumns | None:
         """The columns of a section's table; None with the fault added."""
         try:

@@ -162,7 +162,7 @@ def _is_series(form: RecordingForm, points: SteadySection, readings: Array) -> b
 
 
 def _hold_units(channels: Sequence[ChannelForm], columns: TableColumns, reader: ColumnReader) -> None:
-    """Note each channel whose unit in the table itself differs from the stated one."""
+    """Warn of each channel whose unit in the table itself differs from the stated one."""
     for channel in channels:
         in_table, dimension = columns.units.get(channel.column, ""), channel.name.dimension
         try:
@@ -170,7 +170,7 @@ def _hold_units(channels: Sequence[ChannelForm], columns: TableColumns, reader: 
         except QuantityError:
             continue
         if own is not None and dimension and not math.isclose(own[0], unit_scale(channel.unit, dimension)[0]):
-            reader.note(f"{channel.name.value}: read in {channel.unit} as stated; the table says {in_table}")
+            reader.warn(f"{channel.name.value}: read in {channel.unit} as stated; the table says {in_table}")
 
 
 def _steady_points(

@@ -136,13 +136,14 @@ def is_recording(path: Path, tables: Sequence[str]) -> bool:
 def check_recording_command(path: Path) -> None:
     """Show a recording as understood; raises InputFaults with every fault of its files and readings at once."""
     from diagnosis.checks.notes import note_text
+    from diagnosis.recording.model import NoteKind
     from diagnosis.study.acceptance import checked_recording
 
     recording = checked_recording(path)
     show(f"{recording.title or path.stem}: {len(recording.steady.values)} points")
     show_table("Channels: readings, range, one sigma of repeatability at mid range", list(_channel_rows(recording)))
-    for note in recording.notes:
-        show(note_text(note))
+    for note in sorted(recording.notes, key=lambda note: note.kind is not NoteKind.WARNED):
+        show(f"warning: {note_text(note)}" if note.kind is NoteKind.WARNED else note_text(note))
 
 
 def _channel_rows(recording: Recording) -> Sequence[tuple[str, ...]]:

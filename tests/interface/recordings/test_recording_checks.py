@@ -131,7 +131,7 @@ def test_a_repeatability_beyond_the_readings_is_a_fault(name, sigma, share):
 
 def test_an_open_circuit_that_is_charged_is_told():
     notes = _told(replace(_sound(), circuit=Circuit.OPEN))
-    assert [(kind, channel) for kind, channel, _ in notes] == [(NoteKind.NOTED, ChannelName.P_IN)]
+    assert [(kind, channel) for kind, channel, _ in notes] == [(NoteKind.WARNED, ChannelName.P_IN)]
     assert "circuit = 'closed'" in notes[0][2]
 
 
@@ -275,7 +275,7 @@ def test_two_pumps_in_one_recording_are_told():
 )
 def test_a_case_that_is_seldom_meant_is_told(name, change, told):
     kinds = {kind for kind, _, text in _told(_with(name, lambda x: x + change)) if told in text}
-    assert kinds == {NoteKind.NOTED}
+    assert kinds == {NoteKind.WARNED}
 
 
 def test_copies_and_readings_without_noise_are_faults():
