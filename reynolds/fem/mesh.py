@@ -24,6 +24,9 @@ from reynolds.fem.mesh_check import mesh_faults
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.files import expect_regular, is_file
 
+FLAT = 1e-9
+"""Largest height of a plane mesh, of its extent."""
+
 
 class Cell(Enum):
     """Shape of a film element."""
@@ -146,12 +149,14 @@ def mesh_from_file(path: Path) -> FilmMesh:
     raw = read_mesh_file(path)
     kinds = {block.type for block in raw.cells}
     if not kinds & {"triangle", "quad"}:
-        raise FilmInputError("mesh", f"{path} holds {', '.join(sorted(kinds))}", "triangle or quad cells")
+        curved = any(kind.startswith(("triangle", "quad")) for kind in kinds)
+        hint = " of straight edges (gmsh: Mesh.ElementOrder = 1)" if curved else ""
+        raise FilmInputError("mesh", f"{path} holds {', '.join(sorted(kinds))}", f"triangle or quad cells{hint}")
     if {"triangle", "quad"} <= kinds:
         raise FilmInputError("mesh", f"{path} mixes triangles and quads", "one kind of cell")
     if raw.points.shape[1] == 3:
-        if np.ptp(raw.points[:, 2]) > 1e-9 * np.ptp(raw.points[:, :2], axis=0).max():
-            raise FilmInputError("mesh", f"{path} is not plane (z varies)", "an unwrapped film, z constant")
+        if fault := _plane_fault(np.asarray(raw.points, dtype=float)):
+            raise FilmInputError("mesh", f"{path} {fault}", "a film in the plane of x and y, z constant")
         raw.points = np.ascontiguousarray(raw.points[:, :2])
     cells = np.concatenate([block.data for block in raw.cells if block.type in ("triangle", "quad")])
     if faults := mesh_faults(raw.points[:, :2], cells):
@@ -161,6 +166,19 @@ def mesh_from_file(path: Path) -> FilmMesh:
     if raw.field_data and "gmsh:physical" in raw.cell_data and not raw.cell_sets:
         own = _physical_lines(raw, mesh)
     return FilmMesh(_named(mesh, {**box_names(mesh), **loop_names(mesh), **own}))
+
+
+def _plane_fault(points: Array) -> str:
+    """What keeps points (n, 3) out of a plane of constant z; empty without a fault."""
+    spans = np.ptp(points, axis=0)
+    near = FLAT * spans.max()
+    if not spans[2] > near:  # points without coordinates are told by `mesh_faults`
+        return ""
+    for normal, axis in enumerate("xy"):
+        if spans[normal] <= near:
+            return f"lies in a plane of constant {axis}, that of {'yz' if axis == 'x' else 'xz'}: turn it"
+    away = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
+    return "lies in a tilted plane (z varies): turn it" if away[2] <= near else "is not plane (z varies)"
 
 
 def _physical_lines(raw: Any, mesh: skfem.Mesh) -> dict[str, NDArray[np.int64]]:

@@ -37,14 +37,12 @@ class Pattern:
         count, piece = connected_components(graph, directed=False)
         return int(count), piece
 
-    def pieces_without(self, marked: NDArray[np.bool_]) -> int:
-        """Number of pieces of the film in which no unknown is marked."""
+    def pieces_without(self, marked: NDArray[np.bool_]) -> NDArray[np.intp]:
+        """Numbers of the pieces of the film in which no unknown is marked."""
         count, piece = self.pieces
-        if count == 1:
-            return int(not marked.any())
         reached = np.zeros(count, dtype=bool)
         reached[piece[marked]] = True
-        return int(np.count_nonzero(~reached))
+        return np.flatnonzero(~reached)
 
 
 def pattern_of(dofs: NDArray[np.int32], size: int) -> Pattern:

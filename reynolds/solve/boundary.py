@@ -104,13 +104,21 @@ def _check_level(
     problem: FilmProblem, held: NDArray[np.bool_], pockets: list[tuple[int, Pocket]], level: float
 ) -> None:
     """Raise FilmInputError for a piece of the film without a pressure level."""
-    pattern = problem.space.pattern
-    fed = held.copy()
+    space, fed = problem.space, held.copy()
     for node, pocket in pockets:
         fed[node] |= pocket.feed(level)[1] < 0.0
-    if dry := pattern.pieces_without(fed):
-        where = f"in {dry} of {pattern.pieces[0]} separate pieces of the film" if fed.any() else "anywhere"
-        raise FilmInputError("boundary", f"no pressure given {where}", "a boundary with a pressure at each piece")
+    if not (dry := space.pattern.pieces_without(fed)).size:
+        return
+    count, piece = space.pattern.pieces
+    own = {name: {*piece[nodes]} for name, nodes in space.edge_dofs.items()}
+    names = [name for name in space.film_mesh.boundary_names if dry[0] in own[name]]
+    x, y = space.vertices[piece[space.vertex_dofs] == dry[0]].mean(axis=0)
+    where = f"in {dry.size} of {count} separate pieces of the film, the first about x = {x:.4g} m, y = {y:.4g} m"
+    raise FilmInputError(
+        "boundary",
+        f"no pressure given {where if fed.any() else 'anywhere'}",
+        f"a boundary with a pressure at each piece, here {' or '.join(names) or 'of a name that the mesh lacks'}",
+    )
 
 
 def pressure_sending(feed: Feed, flow: float, start: float) -> float:

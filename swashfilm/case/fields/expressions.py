@@ -82,6 +82,7 @@ def parse_expression(
         raise ExpressionError(f"{len(text)} characters", f"a formula of at most {LONGEST} characters")
     try:
         tree = ast.parse(text.strip(), mode="eval")
+        _check_powers(tree, text.strip())
         _check_names(tree, variables, constants)
         formula = Expression(text.strip(), _compile(tree.body), dict(constants))
         formula(np.ones(1), np.ones(1))
@@ -95,6 +96,14 @@ def parse_expression(
             raise ExpressionError(f"'{text}': {reason.found}", reason.expected, reason.nearest) from None
         raise ExpressionError(f"{text!r} ({reason})", f"a formula of {_listed(variables)}") from None
     return formula
+
+
+def _check_powers(tree: ast.Expression, text: str) -> None:
+    """Raise ExpressionError for ^, with its column."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.BitXor):
+            column = text.index("^", node.left.end_col_offset) + 1
+            raise ExpressionError(f"^ at column {column}", "** for a power", "**")
 
 
 def _check_names(tree: ast.Expression, variables: Sequence[str], constants: Iterable[str]) -> None:
@@ -129,8 +138,6 @@ def _compile(node: ast.expr) -> _Evaluate:
             return _named(name)
         case ast.BinOp(left=left, op=sign, right=right) if type(sign) in _BINARY:
             return _call(_BINARY[type(sign)], [left, right])
-        case ast.BinOp(op=ast.BitXor()):
-            raise ExpressionError(f"^{_at(node)}", "** for a power", "**")
         case ast.UnaryOp(op=sign, operand=operand) if type(sign) in _UNARY:
             return _call(_UNARY[type(sign)], [operand])
         case ast.BoolOp(op=sign, values=values):

@@ -15,6 +15,7 @@ from reynolds.fem.space import FilmSpace
 from reynolds.numerics.arrays import Array
 from swashfilm.case.fields.expressions import (
     CONSTANTS,
+    FUNCTIONS,
     IN_TIME,
     NO_CONSTANTS,
     PLACE,
@@ -27,6 +28,9 @@ from system.inputs.units import Dimension, QuantityError, format_quantity, parse
 
 _WITH_UNIT = re.compile(r"[+-]?(?>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*[A-Za-zµμ°].*")
 _NAME = re.compile(r"[^\W\d]\w*")
+_UNIT = re.compile(r"(?<![\w.])(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?\s+([^\W\d]\w*)")
+"""A number, and the name behind it."""
+_WORDS = ("and", "or", "not", "if", "else")
 
 
 @dataclass(frozen=True)
@@ -191,13 +195,27 @@ def read_field(
     if text in data.cell:
         return CellData(text, data.cell[text])
     if _WITH_UNIT.fullmatch(text):
-        return Uniform(parse_quantity(text, dimension), dimension)
+        try:
+            return Uniform(parse_quantity(text, dimension), dimension)
+        except QuantityError:
+            _refuse_units(text, dimension, (*variables, *constants))
+            raise
     if may_be_data(text) and text not in constants:
         raise _no_such_data(text, data, constants)
     try:
         return Formula(parse_expression(text, variables, constants))
     except ExpressionError as reason:
+        _refuse_units(text, dimension, (*variables, *constants))
         raise QuantityError(reason.found, reason.expected, reason.nearest or with_point(text)) from None
+
+
+def _refuse_units(text: str, dimension: Dimension, names: Sequence[str]) -> None:
+    """Raise QuantityError for a formula, of names or of several numbers, with a unit behind a number."""
+    units = [match[1] for match in _UNIT.finditer(text) if match[1] not in (*names, *_WORDS)]
+    others = {*_NAME.findall(_UNIT.sub(" ", text))} & {*names, *CONSTANTS, *FUNCTIONS}
+    if units and (others or len(units) > 1):
+        found = f"'{text}', a formula with the unit {units[0]}"
+        raise QuantityError(found, f"a formula in SI without units, its value in {dimension.si_unit}")
 
 
 def may_be_data(raw: object) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -68,7 +69,7 @@ def run_film(options: argparse.Namespace) -> int:
 def film_case(options: argparse.Namespace) -> tuple[Case | StudyCase, int, int]:
     """Return the case, numbers of meshes and processes of a command line; raise InputFaults with all faults."""
     from swashfilm.case.gap.revolution import RevolutionCase
-    from swashfilm.case.study import StudyCase, load_film
+    from swashfilm.case.study import StudyCase
     from swashfilm.runs.film.refine import check_refinement
     from swashfilm.runs.film.solve.sensitivity import check_sensitivity
 
@@ -79,8 +80,7 @@ def film_case(options: argparse.Namespace) -> tuple[Case | StudyCase, int, int]:
     workers = whole(faults, "--workers", options.workers, 1, (1, 64), "a number of processes")
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
-    case = load_film(options.case, switched_keys(options), stated)
-    _check_options(options, case)
+    case = _loaded(options, stated)
     if not isinstance(case, (StudyCase, RevolutionCase)):
         if meshes > 1:
             check_refinement(case, meshes)
@@ -133,8 +133,24 @@ def _study(study: StudyCase, options: argparse.Namespace, workers: int) -> int:
     return ended(found.summary)
 
 
-def _check_options(options: argparse.Namespace, case: Case | StudyCase) -> None:
-    """Raise InputFaults for options that are not for this kind of case."""
+def _loaded(options: argparse.Namespace, stated: Mapping[str, object]) -> Case | StudyCase:
+    """Return the case; raise InputFaults with all faults of the file, or of options that are not for this kind."""
+    from swashfilm.case.study import load_film
+
+    switches: tuple[Fault, ...] = ()
+    try:
+        case = load_film(options.case, switched_keys(options), stated)
+    except InputFaults as reason:
+        if reason.source != COMMAND_LINE:
+            raise
+        switches, case = reason.faults, load_film(options.case, {}, stated)
+    if faults := [*switches, *_option_faults(options, case)]:
+        raise InputFaults(COMMAND_LINE, faults)
+    return case
+
+
+def _option_faults(options: argparse.Namespace, case: Case | StudyCase) -> list[Fault]:
+    """Return the faults of options that are not for this kind of case."""
     from swashfilm.case.gap.revolution import RevolutionCase
     from swashfilm.case.study import StudyCase
 
@@ -149,14 +165,12 @@ def _check_options(options: argparse.Namespace, case: Case | StudyCase) -> None:
             kind, unfit = turn, [(for_study, study), (for_instant, "a film at one instant")]
         case _:
             kind, unfit = single, [(for_study, study), (for_turn, turn)]
-    faults = [
+    return [
         Fault(name, f"an option beside {kind}", fit)
         for stated, fit in unfit
         for name, given in stated.items()
         if given is not None
     ]
-    if faults:
-        raise InputFaults(COMMAND_LINE, faults)
 
 
 COMMAND = Command("film", "one film: a free one or a gap of a pump", add_film_options, run_film)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -75,11 +75,11 @@ def optimise_case(options: argparse.Namespace) -> OptimiseCase:
     return load_optimisation(options.case, set_values_of(options, EXAMPLE), options)
 
 
-def checked_words(path: Path) -> str:
-    """Return the requests of a file, a line each; raise InputFaults with every fault."""
+def checked_words(path: Path, stated: Mapping[str, object]) -> str:
+    """Return the requests of a file with other values of keys, a line each; raise InputFaults with every fault."""
     parser = argparse.ArgumentParser()
     add_optimise_options(parser)
-    case = optimise_case(parser.parse_args([str(path)]))
+    case = optimise_case(parser.parse_args([str(path), *(f"--set={key}={one}" for key, one in stated.items())]))
     own, search = case.problem, case.search
     lines = [f"{case.varied.fidelity.value}, {len(case.varied.work.sites.points)} operating points"]
     lines += [
