@@ -167,6 +167,9 @@ def test_file_with_other_cells(tmp_path):
 
 
 def test_file_that_is_not_plane(tmp_path):
-    bent = SQUARE + np.outer(SQUARE[:, 0], [0.0, 0.0, 0.1])
+    tilted = SQUARE + np.outer(SQUARE[:, 0], [0.0, 0.0, 0.1])
+    with pytest.raises(FilmInputError, match="tilted plane"):
+        mesh_from_file(_write(tmp_path / "tilted.vtu", tilted, [TRIANGLES]))
+    bent = SQUARE + np.outer(SQUARE[:, 0] * SQUARE[:, 1], [0.0, 0.0, 0.1])
     with pytest.raises(FilmInputError, match="not plane"):
         mesh_from_file(_write(tmp_path / "bent.vtu", bent, [TRIANGLES]))
