@@ -12,12 +12,16 @@ from swashfilm.output.answer import Answer, Tile
 from swashfilm.output.touch.picture import Picture
 from swashfilm.runs.calibrate.words import (
     AS_ASSUMED,
+    AT_END,
     DETERMINED,
+    FAR,
     assumed_text,
     fitted_parts,
     how_far,
+    is_at_end,
     is_sensor,
     parameter_words,
+    sigmas_off,
 )
 from system.inputs.channels import ChannelName
 
@@ -39,20 +43,27 @@ def calibrate_answer(
     """Return the answer of a calibration's page: tiles, words, the picture of fit and readings."""
     own = sorted((row for row in parameters if not is_sensor(row)), key=lambda row: float(row["sigma_over_prior [1]"]))
     learnt = [row for row in own if how_far(row) == DETERMINED]
-    tiles = [_tile(row) for row in own[:MOST_LEARNT]]
+    held = [row for row in own if is_at_end(row)]
+    tiles = [_tile(row) for row in [*(row for row in own if row not in held), *held][:MOST_LEARNT]]
     tiles.append(Tile(f"{len(learnt)} of {len(own)}", "values of the pump determined", "error halved at least"))
     worst = sorted(_misfits(residuals), key=lambda one: -one[3])[:MOST_MISFITS]
     tiles += [
         Tile(f"{rms:.2g} {unit}", f"{words}, error of the fit", f"rms; {_scatter_words(unit, rms, pull)}")
         for words, unit, rms, pull in worst
     ]
-    words = (*_fit_words(summary, residuals), *_learnt_words(own, learnt), *_law_words(summary))
+    words = (
+        *_fit_words(summary, residuals),
+        *_learnt_words(own, learnt),
+        *_law_words(summary),
+        *_far_words(parameters),
+    )
     return Answer(tuple(tiles), " ".join(words), picture, CAPTION if picture else "")
 
 
 def _tile(row: Row) -> Tile:
     value, sigma = fitted_parts(row)
-    return Tile(value, parameter_words(row["name"]), f"+- {sigma}; assumed {assumed_text(row)}")
+    known = AT_END if is_at_end(row) else f"+- {sigma}"
+    return Tile(value, parameter_words(row["name"]), f"{known}; assumed {assumed_text(row)}")
 
 
 def _misfits(residuals: Sequence[Row]) -> Iterator[tuple[str, str, float, float]]:
@@ -87,6 +98,19 @@ def _learnt_words(own: Sequence[Row], learnt: Sequence[Row]) -> Iterator[str]:
         yield "The recording determines no value of the pump better than half of what was assumed."
     if left := [row for row in own if how_far(row) == AS_ASSUMED]:
         yield f"These stay as assumed: {listed(_named(left))}."
+    if ends := [row for row in own if is_at_end(row)]:
+        yield f"These lie at the end of their range, so that no sigma of them holds: {listed(_named(ends))}."
+
+
+def _far_words(parameters: Sequence[Row]) -> Iterator[str]:
+    """Yield a warning of each parameter, of pump or meter, whose value contradicts the assumed one."""
+    for row in sorted(parameters, key=lambda row: -abs(sigmas_off(row))):
+        if abs(sigmas_off(row)) >= FAR:
+            what = f"{parameter_words(row['name'])} {fitted_parts(row)[0]}"
+            yield (
+                f"Warning: {what} is {abs(sigmas_off(row)):.1f} sigma from what was assumed ({assumed_text(row)}): "
+                "that, the recording or the model is wrong."
+            )
 
 
 def _named(rows: Sequence[Row]) -> list[str]:

@@ -13,6 +13,7 @@ from diagnosis.verdict.row_numbers import table_rows
 from swashfilm.console.schemas import write_new
 from swashfilm.formats.versions import headed
 from swashfilm.output.run_folder import write_json
+from swashfilm.runs.calibrate.words import OFF
 from swashfilm.runs.diagnose.files import write_rows
 from system.bench.calibration.held_out import PHYSICS
 from system.estimation.posterior import Posterior
@@ -64,7 +65,7 @@ def summary(found: Calibration, title: str) -> dict[str, Any]:
 
 
 def parameter_rows(fit: Posterior) -> Iterator[Row]:
-    """Every parameter: its prior one sigma either way, bounds, fitted value, sigma / prior sigma."""
+    """Every parameter: its prior one sigma either way, bounds, fitted value, sigma and distance in prior sigmas."""
     for at, parameter in enumerate(fit.parameters):
         sigma = float(np.sqrt(fit.covariance[at, at]))
         held = fit.xi[at] <= parameter.lowest or fit.xi[at] >= parameter.highest
@@ -81,6 +82,7 @@ def parameter_rows(fit: Posterior) -> Iterator[Row]:
             "mean": _text(factor * mean),
             "sigma": _text(factor * fit.sigma(parameter.name)),
             "sigma_over_prior [1]": _text(sigma),
+            OFF: f"{float(fit.xi[at]):.3f}",
             "at_bound": "yes" if held else "no",
             "source": parameter.source,
         }

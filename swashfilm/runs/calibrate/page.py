@@ -14,6 +14,7 @@ from swashfilm.runs.calibrate.words import (
     AS_ASSUMED,
     FRICTION,
     assumed_text,
+    degree_text,
     fitted_text,
     how_far,
     is_sensor,
@@ -50,7 +51,7 @@ def write_calibrate_page(folder: Path) -> Path:
         undetermined=[(combination_words(row["combination"]),) for row in tables["undetermined"]],
         equation=equation_table(tables["equation_21"]),
         held_out=held_out_tables(folder),
-        statistics=[*statistics(summary, parameters)],
+        statistics=[*statistics(summary)],
         statistics_head=STATISTICS_HEAD,
         details=[
             (parameter_words(row["name"]), row["name"], f"{float(row['sigma_over_prior [1]']):.2f}")
@@ -64,11 +65,11 @@ def headline(folder: Path) -> tuple[str, ...]:
     """The result in sentences: the answer, then the statistics."""
     own, parameters = read_summary(folder), read_rows(folder / "parameters.csv")
     answer = calibrate_answer(own, parameters, read_rows(folder / "residuals.csv"))
-    return answer.words, *statistics(own, parameters)
+    return answer.words, *statistics(own)
 
 
-def statistics(own: Mapping[str, Any], parameters: Sequence[Row]) -> Iterator[str]:
-    """Yield sentences on the fit: readings, chi-square, the law of friction, parameters at their bounds."""
+def statistics(own: Mapping[str, Any]) -> Iterator[str]:
+    """Yield sentences on the fit: readings, chi-square, the law of friction."""
     yield (
         f"{own['parameters']} parameters fitted to {own['readings']} readings at {own['points']} points: chi-square "
         f"per reading {own['chi2_per_reading']:.3f}."
@@ -80,16 +81,12 @@ def statistics(own: Mapping[str, Any], parameters: Sequence[Row]) -> Iterator[st
         yield f"The data {words} a friction that depends on the Hersey number: {odds}."
         if law["supported"]:
             yield f"With constant coefficients chi-square per reading is {own['chi2_constant_friction']:.3f}."
-    for row in parameters:
-        if row["at_bound"] == "yes" and float(row["mean"]) != 0.0:  # a parameter that may only add is often 0
-            bound = f"{row['mean']} {row['unit']}".removesuffix(" 1")
-            yield f"Parameter {row['name']} is at its bound, {bound}."
 
 
 def parameter_rows(rows: Iterable[Row]) -> Iterator[tuple[str, ...]]:
     """Yield (parameter, assumed before, source of that, fitted, degree of determination), the best determined first."""
     for row in sorted(rows, key=lambda row: float(row["sigma_over_prior [1]"])):
-        yield parameter_words(row["name"]), assumed_text(row), row["source"], fitted_text(row), how_far(row)
+        yield parameter_words(row["name"]), assumed_text(row), row["source"], fitted_text(row), degree_text(row)
 
 
 def pair_table(folder: Path) -> list[tuple[str, ...]]:

@@ -14,10 +14,14 @@ from system.pump.laws.friction_pairs import Pair
 Row = Mapping[str, str]
 WELL, PARTLY = 0.5, 0.9
 """Share of the assumed uncertainty left by the fit, up to which a parameter is determined well, or in part."""
-DETERMINED, IN_PART, AS_ASSUMED = "determined", "in part", "as assumed"
+DETERMINED, IN_PART, MOVED, AS_ASSUMED = "determined", "in part", "moved, not narrowed", "as assumed"
+AT_END = "at the end of its range"
+FAR = 3.0
+"""Assumed sigmas from the assumed value, from which a fitted one contradicts it."""
 FRICTION = "friction."
 STIFF = 1e8
 """Pa from which a pressure is a modulus."""
+OFF = "off_over_prior [1]"
 _GAIN = "gain"
 _INPUTS = {
     "speed": "shaft speed", "p_out": "delivery pressure", "p_in": "inlet pressure", "p_case": "case pressure",
@@ -46,23 +50,45 @@ def is_sensor(row: Row) -> bool:
 
 
 def how_far(row: Row) -> str:
-    """Return the degree to which the recording determines a parameter."""
+    """Return the degree to which the recording determines a parameter; one at a bound is not determined."""
+    if is_at_end(row):
+        return AT_END
     left = float(row["sigma_over_prior [1]"])
-    return DETERMINED if left < WELL else IN_PART if left < PARTLY else AS_ASSUMED
+    unmoved = AS_ASSUMED if abs(sigmas_off(row)) < 1.0 else MOVED
+    return DETERMINED if left < WELL else IN_PART if left < PARTLY else unmoved
+
+
+def is_at_end(row: Row) -> bool:
+    """Return whether the fitted value lies on a bound."""
+    return row["at_bound"] == "yes"
+
+
+def sigmas_off(row: Row) -> float:
+    """Return the assumed sigmas by which the fitted value differs from the assumed one; 0 in tables without them."""
+    return float(row.get(OFF, "0"))
+
+
+def degree_text(row: Row) -> str:
+    """Return `how_far`, and the distance of a value that contradicts the assumed one: "in part, 4.4 sigma off"."""
+    off = abs(sigmas_off(row))
+    return f"{how_far(row)}, {off:.1f} sigma off" if off >= FAR else how_far(row)
 
 
 def fitted_parts(row: Row) -> tuple[str, str]:
     """Return the fitted value and its sigma, each with its unit: "15.11 um", "0.68 um"."""
     value, sigma = float(row["mean"]), float(row["sigma"])
     factor, unit = _unit(row, max(abs(value), sigma))
-    digits = max(0, 1 - floor(log10(factor * sigma))) if sigma > 0.0 else 3
+    size = factor * (abs(value) if is_at_end(row) and value != 0.0 else sigma)
+    digits = max(0, 1 - floor(log10(size))) if size > 0.0 else 3
     shown, width = (f"{factor * number:.{digits}f} {unit}".rstrip() for number in (value, sigma))
     return shown, width
 
 
 def fitted_text(row: Row) -> str:
-    """Return the fitted value with one sigma and its unit: "15.11 +- 0.68 um"."""
+    """Return the fitted value with one sigma and its unit: "15.11 +- 0.68 um"; without it at a bound."""
     value, sigma = fitted_parts(row)
+    if is_at_end(row):
+        return value
     return f"{value.split()[0]} +- {sigma}"
 
 

@@ -7,18 +7,13 @@ from typing import Any
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from system.bench.parameters import BEARINGS, FILE_KEYS, GUIDE, pump_with
+from system.bench.parameters import FILE_KEYS, friction_key, pump_with
 from system.description.effects import PhysicsSection
 from system.description.pump import PumpDescription
 from system.effects.extension import Extension
 from system.estimation.parameters import Parameter
 from system.estimation.posterior import Posterior
 from system.inputs.sections.reader import section_of
-
-_OF_FRICTION: Mapping[str, str] = {
-    f"friction.{GUIDE}": "guide_friction",
-    **{f"friction.{pair}": "bearing_friction" for pair in BEARINGS},
-}
 
 
 def values_by_name(parameters: Sequence[Parameter], values: Array) -> dict[str, float]:
@@ -69,7 +64,8 @@ def calibrated_pump(pump: PumpDescription, fit: Posterior, laws: Sequence[Extens
     stated = {one.name for one in fields(own.tolerance)}
     known: dict[str, Any] = {}
     for parameter, width in zip(fit.parameters, sigma, strict=True):
-        key = _OF_FRICTION.get(parameter.name, parameter.name.partition(".")[0])
+        first, _, rest = parameter.name.partition(".")
+        key = friction_key(rest) if first == "friction" else first
         if key in stated:
             known[key] = max(known.get(key, 0.0), float(parameter.spread * width))
     fitted = {FILE_KEYS.get(parameter.name) for parameter in fit.parameters}

@@ -20,6 +20,7 @@ from diagnosis.explain.refit import refit
 from reynolds import NotConverged
 from swashfilm.__main__ import main
 from swashfilm.runs.calibrate.answer import calibrate_answer
+from swashfilm.runs.calibrate.page import parameter_rows
 from system import SIMULATED, BenchPoints, EffectId, Extension, LumpedBench, entry_of, load_pump
 from system.bench.calibration.equation_21 import paper_priors
 
@@ -204,3 +205,38 @@ def test_the_answer_tells_the_scatter_that_the_readings_show() -> None:
     assert notes == ["rms; scatter of the meter 1 N m", "rms; every reading is met exactly"]
     assert "Beyond the scatter of its meter is" in answer.words
     assert "(1.4 times)" in answer.words
+
+
+def _parameter(name: str, **cells: str) -> dict[str, str]:
+    """A row of parameters.csv: 0.4 +- 0.1, assumed 0.2 to 0.6."""
+    plain = {"unit": "1", "prior_low": "0.2", "prior": "0.4", "prior_high": "0.6", "lower": "0", "upper": "1.4"}
+    fitted = {"mean": "0.4", "sigma": "0.1", "sigma_over_prior [1]": "0.3", "off_over_prior [1]": "0.5"}
+    return {"name": name, **plain, **fitted, "at_bound": "no", "source": "[tolerance]", **cells}
+
+
+def test_a_value_at_its_bound_is_no_result() -> None:
+    """Its sigma does not count; the page and the terminal name it in words, tile, sentence and table."""
+    held = _parameter("friction.slipper_swash_plate", mean="1.4", at_bound="yes")
+    summary = {"readings": 3, "points": 2, "hersey": None}
+    answer = calibrate_answer(summary, [held, _parameter("dead_volume")], [])
+    assert "determines: dead volume." in answer.words
+    assert "end of their range, so that no sigma of them holds: friction coefficient of slipper" in answer.words
+    assert "friction.slipper" not in answer.words
+    assert [tile.note for tile in answer.tiles][1] == "at the end of its range; assumed 0.20 to 0.60"
+    assert answer.tiles[2].value == "1 of 2"
+    assert list(parameter_rows([held])) == [
+        ("friction coefficient, slipper-swash plate", "0.20 to 0.60", "[tolerance]", "1.4", "at the end of its range")
+    ]
+
+
+def test_a_value_far_from_what_was_assumed_is_a_warning() -> None:
+    """From 3 sigma on, of pump and meters; one beyond its assumed range is not 'as assumed'."""
+    far = _parameter("throttle_share", mean="1.28", **{"off_over_prior [1]": "4.4"})
+    meter = _parameter("Q_out.gain", **{"off_over_prior [1]": "-3.2"})
+    off = _parameter("friction.ball_guide_retainer", **{"off_over_prior [1]": "-1.9", "sigma_over_prior [1]": "0.93"})
+    answer = calibrate_answer({"readings": 3, "points": 2, "hersey": None}, [far, meter, off], [])
+    assert "Warning: throttle share 1.28 is 4.4 sigma from what was assumed (0.20 to 0.60)" in answer.words
+    assert "gain of delivery flow (Q_out) 40 % is 3.2 sigma" in answer.words
+    assert "stay as assumed" not in answer.words
+    ends = [row[-1] for row in parameter_rows([far, off])]
+    assert ends == ["determined, 4.4 sigma off", "moved, not narrowed"]
