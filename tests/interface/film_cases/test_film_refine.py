@@ -2,14 +2,17 @@
 
 import csv
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import meshio
 import numpy as np
 import pytest
+import skfem
 from bench_pump import BENCH
 
-from reynolds import Cell, annulus, mesh_from_file, rectangle
+from reynolds import Cell, annulus, film_space, mesh_from_file, rectangle
+from reynolds.fem.mesh import FilmMesh, loop_names
 from reynolds.fem.mesh_check import mesh_faults
 from reynolds.fem.refine import refine_mesh
 from reynolds.numerics.convergence import ConvergenceKind, convergence
@@ -90,14 +93,90 @@ def test_a_finer_mesh_keeps_area_names_and_data(cell, build):
     for name in coarse.boundary_names:
         ends = [mesh.p[:, mesh.facets[:, mesh.boundaries[name]]] for mesh in (coarse.mesh, fine.mesh)]
         lengths = [np.hypot(*(end[:, 1] - end[:, 0])) for end in ends]
-        assert lengths[1].sum() == pytest.approx(lengths[0].sum())
+        # Edges of an eighth of a turn are arcs: half of one has the chord 2 r sin(pi/16).
+        longer = 1.0 if build is rectangle else 2.0 * np.sin(np.pi / 16.0) / np.sin(np.pi / 8.0)
+        assert lengths[1].sum() == pytest.approx(longer * lengths[0].sum())
         assert len(lengths[1]) == 2 * len(lengths[0])
     centres = coarse.mesh.p[:, coarse.mesh.t].mean(axis=1)
     children = fine.mesh.p[:, fine.mesh.t].mean(axis=1).reshape(2, 4, -1).mean(axis=1)
     np.testing.assert_allclose(children, centres, atol=0.05 if build is annulus else 1e-12)
     x, y = fine.mesh.p
-    np.testing.assert_allclose(finer.point_data(3.0 * coarse.mesh.p[0] - coarse.mesh.p[1]), 3.0 * x - y, atol=1e-12)
+    moved = np.hypot(finer.point_data(coarse.mesh.p[0]) - x, finer.point_data(coarse.mesh.p[1]) - y) > 1e-12
+    assert moved.sum() == (0 if build is rectangle else 16)  # of middles of edges on the two circles
+    data = finer.point_data(3.0 * coarse.mesh.p[0] - coarse.mesh.p[1])
+    np.testing.assert_allclose(data[~moved], (3.0 * x - y)[~moved], atol=1e-12)
     assert len(finer.cell_data(np.arange(coarse.mesh.nelements))) == fine.mesh.nelements
+
+
+def _uneven_ring(turn: float, cell: Cell) -> FilmMesh:
+    """A ring, or a part of one, with edges of unequal length about a centre off the origin."""
+    radial, around = 4, 24
+    angle = turn * (
+        np.arange(around + 1) + 0.3 * np.sin(np.arange(around + 1) * 7.0) * (np.arange(around + 1) % around > 0)
+    )
+    angle /= around
+    radius = np.linspace(0.01, 0.02, radial + 1)
+    points = np.stack([np.outer(radius, np.cos(angle)) + 0.1, np.outer(radius, np.sin(angle)) - 0.2]).reshape(2, -1)
+    i, j = (part.ravel() for part in np.meshgrid(np.arange(radial), np.arange(around), indexing="ij"))
+    at, wide = i * (around + 1) + j, around + 1
+    quads = np.vstack([at, at + wide, at + wide + 1, at + 1])
+    if turn == 2.0 * np.pi:  # the last angle is the first
+        quads = np.where(quads % wide == around, quads - around, quads)
+        used, quads = np.unique(quads, return_inverse=True)
+        points, quads = points[:, used], quads.reshape(4, -1)
+    mesh = skfem.MeshQuad(np.ascontiguousarray(points), np.ascontiguousarray(quads))
+    mesh = mesh if cell is Cell.QUADRILATERAL else mesh.to_meshtri()
+    return FilmMesh(replace(mesh, _boundaries=loop_names(mesh)))
+
+
+@pytest.mark.parametrize("cell", list(Cell))
+@pytest.mark.parametrize("turn", [2.0 * np.pi, 1.3])
+def test_a_finer_mesh_has_its_round_edges_on_their_circles(cell, turn):
+    """The area of the ring is missed by a fourth with each mesh; its straight edges stay straight."""
+    meshes = [_uneven_ring(turn, cell)]
+    for _ in range(2):
+        meshes.append(refine_mesh(meshes[-1]).film_mesh)
+    areas = [float(film_space(one).area.sum()) for one in meshes]
+    exact = 0.5 * turn * (0.02**2 - 0.01**2)
+    missed = [exact - area for area in areas]
+    assert missed[1] / missed[0] == pytest.approx(0.25, abs=0.02)
+    assert missed[2] / missed[1] == pytest.approx(0.25, abs=0.02)
+    edge = meshes[-1].mesh.p[:, np.unique(meshes[-1].mesh.facets[:, meshes[-1].mesh.boundary_facets()])]
+    x, y = edge[0] - 0.1, edge[1] + 0.2
+    radius = np.hypot(x, y)
+    round_ = np.minimum(np.abs(radius - 0.01), np.abs(radius - 0.02)) < 1e-9
+    straight = np.minimum(np.abs(y), np.abs(x * np.sin(1.3) - y * np.cos(1.3))) < 1e-12
+    assert (round_ | straight).all()
+
+
+@pytest.mark.parametrize("corners", [3, 4, 6])
+def test_a_polygon_stays_one(corners):
+    """A film of few straight sides, each one edge long, is no circle though its corners lie on one."""
+    angle = 2.0 * np.pi * np.arange(corners) / corners
+    points = np.column_stack([[0.0, 0.0], *np.stack([np.cos(angle), np.sin(angle)]).T])
+    around = np.arange(corners)
+    cells = np.vstack([0 * around, 1 + around, 1 + (around + 1) % corners])
+    coarse = FilmMesh(skfem.MeshTri(np.ascontiguousarray(points), cells))
+    fine = refine_mesh(coarse).film_mesh
+    assert film_space(fine).area.sum() == pytest.approx(film_space(coarse).area.sum(), rel=1e-12)
+
+
+def test_the_bar_of_a_ring_from_a_file_counts_its_round_edges(tmp_path, monkeypatch):
+    """Flow through a ring: pi h^3 dp/(6 mu ln(r2/r1))."""
+    monkeypatch.chdir(tmp_path)
+    mesh = _uneven_ring(2.0 * np.pi, Cell.TRIANGLE).mesh
+    meshio.write_points_cells(
+        "ring.vtu", np.column_stack([mesh.p.T, np.zeros(mesh.nvertices)]), [("triangle", mesh.t.T)]
+    )
+    Path("ring.toml").write_text(
+        'format = 1\n[film]\nmesh = "ring.vtu"\nthickness = "20 um"\nviscosity = "30 mPa s"\n[boundary]\n'
+        'inner = { pressure = "50 bar" }\nouter = { pressure = "0 bar" }\n',
+        encoding="utf-8",
+    )
+    assert main(["film", "ring.toml", "--refine", "3", "-o", "run"]) == 0
+    flow = json.loads(Path("run/summary.json").read_text("utf-8"))["refinement"]["numbers"]["flow_m3_per_s.outer"]
+    exact = np.pi * (20e-6) ** 3 * 5e6 / (6.0 * 0.03 * np.log(2.0))
+    assert abs(flow["extrapolated"] - exact) <= flow["error"] < 1e-3 * exact
 
 
 def test_a_slider_on_three_meshes_tends_to_the_closed_form(tmp_path, monkeypatch, capsys):
