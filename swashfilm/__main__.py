@@ -5,6 +5,7 @@ import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from shlex import join
 from types import TracebackType
 
 EXIT_BAD_INPUT = 2
@@ -47,7 +48,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if stop.again:
             return _end(f"interrupted: {stop.again}", EXIT_INTERRUPTED)
         kept = f"the finished part is kept in {stop.kept}" if stop.kept else "nothing was kept"
-        again = " ".join(["swashfilm", *words])
+        again = join(["swashfilm", *words])
         if stop.kept and (stop.kept / "points").is_dir():
             return _end(f"interrupted: {kept}. To continue: {_resuming(words, stop.kept)}", EXIT_INTERRUPTED)
         return _end(f"interrupted: {kept}. The same command starts again: {again}", EXIT_INTERRUPTED)
@@ -72,7 +73,7 @@ def _resuming(words: list[str], kept: Path) -> str:
     if "--resume" in before:
         at = before.index("--resume")
         before[at : at + 2] = []
-    return " ".join(["swashfilm", *before, "--resume", str(kept)])
+    return join(["swashfilm", *before, "--resume", str(kept)])
 
 
 def _notes(reason: BaseException) -> list[str]:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from shlex import quote
 from typing import Any
 
 import numpy as np
@@ -46,7 +47,8 @@ def read_recording(path: Path | str) -> Recording:
     stated, data = _places(path)
     if data is not None and not stated.exists():
         expected = f"a {FILE} beside the table"
-        raise InputFaults(str(path), [Fault("file", f"no {stated}", expected, f"swashfilm new recording {path}")])
+        near = f"swashfilm new recording {quote(str(path))}"
+        raise InputFaults(str(path), [Fault("file", f"no {stated}", expected, near)])
     text, tables = read_toml(stated)
     try:
         return recording_of_tables(str(stated), tables, stated.parent, data)

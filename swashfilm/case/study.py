@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from itertools import product
 from pathlib import Path
+from shlex import quote
 from typing import Any, Generic, TypeVar
 
 import numpy as np
@@ -106,7 +107,9 @@ def load_film(
     """
     text, tables = read_switched(path, switched or {}, values or {})
     if "table" in tables:
-        fault = Fault("table", "ranges of a response table", "a film without [table]", f"swashfilm table {path}")
+        fault = Fault(
+            "table", "ranges of a response table", "a film without [table]", f"swashfilm table {quote(str(path))}"
+        )
         raise InputFaults(str(path), [fault], fault_lines(text, [fault]))
     return read_study(path, text, tables) if "study" in tables else read_case(path, text, tables)
 

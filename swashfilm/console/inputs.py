@@ -3,6 +3,7 @@
 import argparse
 from collections.abc import Mapping
 from pathlib import Path
+from shlex import quote
 from typing import Any
 
 from reynolds.numerics.files import is_file, read_text
@@ -49,5 +50,6 @@ def expect(path: str | Path, wanted: str, command: str) -> None:
     _, tables = read_toml(Path(path))
     found = next((kind for kind in ("film", "pump") if isinstance(tables.get(kind), dict)), wanted)
     if found != wanted and "gap" not in tables:
-        fault = Fault("file", f"a file with [{found}]", f"a file with [{wanted}]", f"swashfilm {command} {path}")
+        near = f"swashfilm {command} {quote(str(path))}"
+        fault = Fault("file", f"a file with [{found}]", f"a file with [{wanted}]", near)
         raise InputFaults(str(path), [fault])

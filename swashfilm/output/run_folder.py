@@ -12,6 +12,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from itertools import count
 from pathlib import Path
+from shlex import quote
 from typing import Any
 
 from reynolds.errors import NotConverged
@@ -66,7 +67,7 @@ def run_folder(name: str, wanted: Path | None = None, *, workbook: bool = False)
         from system.work.kept_results import POINTS
 
         if any((partial / POINTS).glob("*.json")):
-            reason.add_note(f"Solved points are kept in {partial}: --resume {partial}")
+            reason.add_note(f"Solved points are kept in {partial}: --resume {quote(str(partial))}")
         elif (partial / FAILED).is_file():
             reason.add_note(f"What was solved until then is kept in {partial} ({FAILED}).")
         else:

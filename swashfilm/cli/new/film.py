@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from importlib.resources import files
 from pathlib import Path
+from shlex import quote
 
 from swashfilm.cli.new.file import NewFile
 from system.inputs.faults import Fault, nearest_choice
@@ -26,7 +27,7 @@ def new_film(kind: str | None, path: Path, faults: list[Fault]) -> NewFile | Non
         faults.append(Fault("KIND", found, f"one of {', '.join(known)}", nearest))
     if kind is None or faults:
         return None
-    return NewFile(path, "case", _text(kind), (f"next: swashfilm film {path}",))
+    return NewFile(path, "case", _text(kind), (f"next: swashfilm film {quote(str(path))}",))
 
 
 def _text(kind: str) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
+from shlex import quote
 from textwrap import wrap
 
 from diagnosis.recording.model import Circuit
@@ -52,7 +53,7 @@ def _head(path: Path, answers: Mapping[str, str]) -> list[str]:
     return [
         *wrap(f"{path.stem}: a pump of which this is known: {known}.", _WIDTH),
         *wrap(_HEAD, _WIDTH),
-        f"swashfilm check {path.name}; swashfilm run {path.name} --fidelity lumped",
+        f"swashfilm check {quote(path.name)}; swashfilm run {quote(path.name)} --fidelity lumped",
     ]
 
 
@@ -60,4 +61,4 @@ def _told(path: Path, pump: Completed, doubts: list[str]) -> tuple[str, ...]:
     """Return what the command prints."""
     count = len(pump.assumptions)
     told = [f"{count} values are assumed: those of ref90, scaled; {path} marks each"]
-    return (*told, *(f"warning: {one}" for one in doubts), f"next: swashfilm run {path} --fidelity lumped")
+    return (*told, *(f"warning: {one}" for one in doubts), f"next: swashfilm run {quote(str(path))} --fidelity lumped")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
+from shlex import quote
 
 from diagnosis.recording.guess.written import GuessedRecording, guessed_recording
 from diagnosis.recording.model import Circuit
@@ -45,8 +46,9 @@ def new_recording(
     faults += _faults(guess)
     if faults:
         return None
-    told = (*guess.told, *_doubts(guess, path), f"next: swashfilm check {source.path}")
-    return NewFile(path, "recording", guess.text, (*told, f"then: swashfilm diagnose PUMP {source.path}"))
+    word = quote(str(source.path))
+    told = (*guess.told, *_doubts(guess, path), f"next: swashfilm check {word}")
+    return NewFile(path, "recording", guess.text, (*told, f"then: swashfilm diagnose PUMP {word}"))
 
 
 def _doubts(guess: GuessedRecording, path: Path) -> Iterator[str]:

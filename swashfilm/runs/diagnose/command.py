@@ -6,6 +6,7 @@ import argparse
 from collections.abc import Iterator, Sequence
 from datetime import date
 from pathlib import Path
+from shlex import quote
 from typing import TYPE_CHECKING
 
 from swashfilm.console.command import Command
@@ -79,7 +80,7 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
         write_new(apply, "pump", applied_toml(finding, finding.extended_pump, date.today()))
         what = "without the sensor's fault" if finding.diagnosis.kind is Kind.SENSOR_FAULT else "with it"
         fidelity = " --fidelity lumped" if films is None else ""  # floating films have all physics by default
-        show(f"the pump as fitted, {what}: swashfilm run {apply}{fidelity}")
+        show(f"the pump as fitted, {what}: swashfilm run {quote(str(apply))}{fidelity}")
     elif apply is not None:
         show(f"nothing is claimed: {apply} is not written")
     show(f"results in {final_folder(folder)}; {PAGE} there has the evidence")

@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
+from shlex import quote
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -137,9 +138,9 @@ def map_file(place: Path) -> Path:
 def _makes_a_map(place: Path) -> str:
     """Return the command that makes a map of an interrupted run or a pump file; empty for anything else."""
     if (place / POINTS).is_dir():
-        return f"swashfilm map .. --resume {place} completes it"
+        return f"swashfilm map .. --resume {quote(str(place))} completes it"
     pump = place if place.suffix == ".toml" else place / "resolved.toml"
-    return f"swashfilm map {pump} computes one" if pump.is_file() else ""
+    return f"swashfilm map {quote(str(pump))} computes one" if pump.is_file() else ""
 
 
 def read_map(path: Path) -> tuple[MapData, MapError | None]:

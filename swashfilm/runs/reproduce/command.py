@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from shlex import quote
 from typing import TYPE_CHECKING
 
 from reynolds.numerics.files import replaced
@@ -157,10 +158,10 @@ def _command(options: argparse.Namespace) -> str:
     """Return the command that writes the same page."""
     names = ("--fidelity", "--pump", "--recording", "--steps", "--finer")
     stated = {name: option_value(options, name) for name in names}
-    words = [f" {name} {text}" for name, text in stated.items() if text not in (None, _FLOATING, "ref90")]
-    words += [f" --set {text}" for text in options.set]
+    words = [f" {name} {quote(str(text))}" for name, text in stated.items() if text not in (None, _FLOATING, "ref90")]
+    words += [f" --set {quote(text)}" for text in options.set]
     words += [f" {switch}" for switch in SWITCHES if option_value(options, switch)]
-    return f"swashfilm reproduce {options.figure}{''.join(words)} --page {options.page}"
+    return f"swashfilm reproduce {options.figure}{''.join(words)} --page {quote(str(options.page))}"
 
 
 def _write_page(path: Path, text: str) -> None:
