@@ -17,6 +17,8 @@ from diagnosis.thresholds import DataLimits
 from system.bench.outputs import METERED, SIMULATED
 from system.inputs.channels import ChannelName
 
+MOST_POINTS = 1000
+"""Of a table of steady points: a fit takes time as their number, tests of drift and place as its cube."""
 VARIED = 2.0
 """Ratio of flow over displacement ratio between points: more than leakage explains: the speed varied."""
 
@@ -29,13 +31,23 @@ def check_recording(recording: Recording, displacement: float | None, limits: Da
     readings are not used (slips, a stuck sensor). SUSPECT: kept until explanations have been fitted. NOTED:
     information.
     """
-    recording = with_notes(recording, [*_gaps(recording), *impossible(recording)])
+    recording = with_notes(recording, [*_too_many(recording), *_gaps(recording), *impossible(recording)])
     with np.errstate(divide="ignore", invalid="ignore"):
         recording = with_notes(recording, [*implausible(recording, displacement), *trace_sizes(recording)])
     recording = with_notes(recording, _speed(recording))
     for find in (coverage, low_resolution, stuck, stuck_inputs, repeated_rows, copies, noiseless):
         recording = with_notes(recording, find(recording))
     return with_notes(recording, outliers(recording, limits))
+
+
+def _too_many(recording: Recording) -> Iterable[DataNote]:
+    """A fault of a recording with more points than a diagnosis can take."""
+    count = len(recording.steady.values)
+    if count > MOST_POINTS:
+        every = -(-count // MOST_POINTS)
+        text = f"{count} steady points, of which a diagnosis takes {MOST_POINTS} at most"
+        mend = f"keep one row in {every}, the means of rows that repeat a set point, or read samples as a [series]"
+        yield DataNote(NoteKind.FAULT, None, (), f"{text}; {mend}")
 
 
 def too_few(recording: Recording, parameters: int) -> DataNote | None:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
-from scipy.linalg import cho_factor, cho_solve
+from numpy.typing import NDArray
+from scipy.linalg import solve_triangular
 
 from diagnosis.study.map_axes import smooth_shapes
 from diagnosis.study.model import Study
@@ -23,13 +26,10 @@ def noise_correlation(study: Study, limits: MismatchLimits) -> tuple[float, ...]
     if len(pairs) < limits.memory_pairs:
         return ()
     residual, left = _without_smooth_mismatch(study, limits)
+    expected, spread = left.of_pairs(pairs)
+    scatter = max(1.0, float(residual @ residual) / float(left.diagonal.sum()))
     one, other = pairs.T
-    half = np.zeros_like(left)
-    half[one, other] = half[other, one] = 0.5
-    paired = half @ left
-    spread = float(np.sqrt(2.0 * np.einsum("ij,ji->", paired, paired)))
-    scatter = max(1.0, float(residual @ residual) / float(np.trace(left)))
-    excess = float(residual @ half @ residual) / scatter - float(np.trace(paired))
+    excess = float(residual[one] @ residual[other]) / scatter - expected
     if excess < limits.memory * spread:
         return ()
     return (min(excess / spread**2, limits.memory_most),)
@@ -43,23 +43,48 @@ def noise_excess(study: Study, limits: MismatchLimits) -> Array:
     """
     residual, left = _without_smooth_mismatch(study, limits)
     channel, count = study.base.whitening.rows[:, 1], study.observations.values.shape[1]
-    squares, free = (np.bincount(channel, each, count) for each in (residual**2, np.diag(left)))
+    squares, free = (np.bincount(channel, each, count) for each in (residual**2, left.diagonal))
     scatter = np.sqrt(np.maximum(squares / np.maximum(free, 1.0), 1.0))
     return np.where(scatter > limits.excess, 1.0, scatter)
 
 
-def _without_smooth_mismatch(study: Study, limits: MismatchLimits) -> tuple[Array, Array]:
-    """Residual (n,) without a smooth mismatch over the map, clipped, and the matrix (n, n) that leaves it."""
+@dataclass(frozen=True)
+class FitRemainder:
+    """What a fit leaves of n readings, P = 1 - W W^T with W (n, m): no matrix (n, n) is made."""
+
+    columns: Array
+
+    @property
+    def diagonal(self) -> Array:
+        """Diagonal (n,) of P."""
+        return np.asarray(1.0 - np.sum(self.columns**2, axis=1))
+
+    def of_pairs(self, pairs: NDArray[np.int64]) -> tuple[float, float]:
+        """tr M P, and s of s^2 = 2 tr M P M P, with M half on every one of the pairs (p, 2).
+
+        tr M P = -tr W^T M W, tr M P M P = tr M^2 - 2 tr W^T M M W + tr (W^T M W)^2.
+        """
+        one, other = pairs.T
+        moved = np.zeros_like(self.columns)
+        np.add.at(moved, one, 0.5 * self.columns[other])
+        np.add.at(moved, other, 0.5 * self.columns[one])
+        within = self.columns.T @ moved
+        square = 0.5 * len(pairs) - 2.0 * np.sum(moved**2) + np.sum(within**2)
+        return -float(np.trace(within)), float(np.sqrt(2.0 * square))
+
+
+def _without_smooth_mismatch(study: Study, limits: MismatchLimits) -> tuple[Array, FitRemainder]:
+    """Residual (n,) without a smooth mismatch over the map, clipped, and what is left so of any readings."""
     base = study.base
     slopes = np.hstack([base.slopes, _smooth_columns(study, limits.smooth)])
-    factor = cho_factor(slopes.T @ slopes + np.eye(slopes.shape[1]))
+    root = np.linalg.cholesky(slopes.T @ slopes + np.eye(slopes.shape[1]))
+    columns = solve_triangular(root, slopes.T, lower=True).T
     offset = base.residual + base.slopes @ base.xi
-    residual = offset - slopes @ cho_solve(factor, slopes.T @ offset)
-    left = np.eye(len(offset)) - slopes @ cho_solve(factor, slopes.T)
-    return np.clip(residual, -limits.memory_clip, limits.memory_clip), left
+    residual = offset - columns @ (columns.T @ offset)
+    return np.clip(residual, -limits.memory_clip, limits.memory_clip), FitRemainder(columns)
 
 
-def _pairs(study: Study, least: float) -> Array:
+def _pairs(study: Study, least: float) -> NDArray[np.int64]:
     """(m, 2), whitened rows of one channel at consecutive points that lie apart on the map."""
     point, channel = study.base.whitening.rows.T
     row = np.full((len(study.axes), channel.max() + 1), -1)

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 
 from diagnosis.recording.series.stretches import Mask
@@ -64,16 +65,23 @@ def clocked(time: Array, readings: Array) -> ClockedSeries:
 
 def _refuse_other_unit(steps: Array, rows: NDArray[np.int64], jumps: Mask) -> None:
     """Raise TableFault where the usual step behind a jump of the clock is that before it in another unit of time."""
-    for k in np.flatnonzero(jumps):
-        before, behind = (part[part > 0.0] for part in (steps[:k], steps[k + 1 :]))
-        if len(before) < FEW or len(behind) < FEW:
-            continue
-        one, other = float(np.median(before)), float(np.median(behind))
-        ratio = max(one, other) / min(one, other)
-        if any(abs(ratio / unit - 1.0) < SAME for unit in UNITS):
-            row = int(rows[k + 1]) + 1
-            found = f"time steps of {one:.3g} s up to row {row - 1} and of {other:.3g} s from row {row} on"
-            raise TableFault(found, "one unit of time in all rows")
+    inner = np.flatnonzero(jumps[1:-1]) + 1
+    if not inner.size:
+        return
+    one, other = _usual_until(steps)[inner - 1], _usual_until(steps[::-1])[::-1][inner + 1]
+    ratio = np.maximum(one, other) / np.minimum(one, other)
+    changed = np.any([np.abs(ratio / unit - 1.0) < SAME for unit in UNITS], axis=0)
+    if changed.any():
+        at = int(np.argmax(changed))
+        row = int(rows[inner[at] + 1]) + 1
+        found = f"time steps of {one[at]:.3g} s up to row {row - 1} and of {other[at]:.3g} s from row {row} on"
+        raise TableFault(found, "one unit of time in all rows")
+
+
+def _usual_until(steps: Array) -> Array:
+    """Median of the positive steps from the first to each (n,); nan where they are fewer than `FEW`."""
+    positive = pd.Series(np.where(steps > 0.0, steps, np.nan))
+    return np.asarray(positive.expanding(FEW).median(), dtype=float)
 
 
 def _averaged(time: Array, readings: Array) -> tuple[Array, Array]:

@@ -401,6 +401,17 @@ def test_gaps_and_too_few_readings_are_told():
     assert len(OUTPUTS) + len(INPUTS) <= len(ChannelName)
 
 
+def test_more_points_than_a_diagnosis_takes_are_told_with_the_share_to_keep():
+    recording = _sound()
+    rows = np.arange(1001) % 96
+    many = replace(recording, steady=recording.steady.at(rows))
+    (told,) = [text for kind, _, text in _told(many) if kind is NoteKind.FAULT and "at most" in text]
+    assert told.startswith("1001 steady points, of which a diagnosis takes 1000 at most; keep one row in 2")
+    assert not any(
+        "at most" in text for _, _, text in _told(replace(recording, steady=recording.steady.at(rows[:1000])))
+    )
+
+
 def test_bench_recordings_tell_nothing(shared):
     from diagnosis import read_recording
 

@@ -19,7 +19,7 @@ from diagnosis.detect.regions import flagged, strongest_region
 from diagnosis.detect.time_scan import TimeKind, remains
 from diagnosis.study.map_axes import axis_values, inside, scaled_axes
 from diagnosis.study.model import concerned, study_of
-from diagnosis.study.noise_correlation import noise_correlation, noise_excess
+from diagnosis.study.noise_correlation import FitRemainder, noise_correlation, noise_excess
 from diagnosis.verdict.locate import Location, locate, of_explanation
 from reynolds import Array
 from system import ChannelName, Component, EffectId, Extension, Kind, Parameter, Role, Scale
@@ -178,6 +178,20 @@ def test_noise_that_remembers_is_told_from_white_noise() -> None:
     sizes = [one[0] for one in found if one]
     assert len(sizes) >= 9
     assert abs(np.mean(sizes) - 0.45) < 0.1  # 190 pairs: .07 each
+
+
+def test_pairs_of_what_a_fit_leaves_take_no_matrix_of_all_readings() -> None:
+    """tr M P and 2 tr M P M P as by full matrices; of 100 000 readings these would need 80 GB each."""
+    columns = np.linalg.qr(np.random.default_rng(6).normal(size=(40, 5)))[0] * [0.9, 0.8, 0.5, 0.3, 0.1]
+    pairs = np.stack([np.arange(0, 30), np.arange(3, 33)], axis=1)
+    half, left = np.zeros((40, 40)), np.eye(40) - columns @ columns.T
+    half[tuple(pairs.T)] = half[tuple(pairs[:, ::-1].T)] = 0.5
+    paired = half @ left
+    expected = np.trace(paired), np.sqrt(2.0 * np.trace(paired @ paired))
+    assert FitRemainder(columns).of_pairs(pairs) == pytest.approx(expected, rel=1e-12)
+    assert FitRemainder(columns).diagonal == pytest.approx(np.diag(left), rel=1e-12)
+    many = np.stack([np.arange(99_999), np.arange(1, 100_000)], axis=1)
+    assert FitRemainder(np.full((100_000, 3), 1e-3)).of_pairs(many)[1] == pytest.approx(np.sqrt(99_999), rel=0.01)
 
 
 def test_an_effect_is_no_memory() -> None:

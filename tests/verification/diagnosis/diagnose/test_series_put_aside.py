@@ -1,5 +1,7 @@
 """Samples of a series that are no readings: clock, hangs, ends of range and rest are found, sound ones are kept."""
 
+from time import process_time
+
 import numpy as np
 import pytest
 
@@ -143,6 +145,15 @@ def test_a_clock_that_counts_in_another_unit_behind_a_jump_is_refused(share):
             clocked(time, np.zeros((100, 1)))
     else:
         assert np.all(np.diff(clocked(time, np.zeros((100, 1))).time) > 0.0)
+
+
+def test_a_clock_of_many_pauses_takes_time_as_its_rows():
+    """A million rows with a pause after every fortieth, in seconds; each pause by itself would take an hour."""
+    steps = np.where(np.arange(1_000_000) % 40 == 0, 60.0, 1.0)
+    begun = process_time()
+    found = clocked(np.cumsum(steps), np.zeros((len(steps), 1)))
+    assert process_time() - begun < 20.0
+    assert len(found.time) == len(steps)
 
 
 @pytest.mark.parametrize("few", [slice(47, None), slice(0, 53)])
