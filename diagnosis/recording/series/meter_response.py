@@ -34,6 +34,8 @@ REFINED = 3  # Gauss-Newton steps of a lag, whose error after a search by misfit
 HUBER = 1.5
 NORMAL = 1.4826  # standard deviation of a normal distribution per median magnitude
 LAGS = (0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0)  # samples
+LONGEST = 16.0  # lags of at most the series' length over this are tried
+BLOCKS = 2000  # means of samples by which lag and storage are judged: what single samples hide in their noise
 LOW = 0.3  # share of the least readings by which a dead band is sought
 LEAST_PILE = 0.005  # share of readings in it
 MOST_BAND = 0.3  # of the largest reading
@@ -76,9 +78,13 @@ def meter_response(
 
     at_once = columns(0.0)
     follows = follows_down(known, at_once, dead_band(known, at_once)) if may_be_dead else np.ones(len(known), bool)
-    lag = best_lag(lambda samples: misfit(columns(samples)[follows], known[follows]))
+
+    def missed(samples: float) -> float:
+        return misfit(block_means(columns(samples)[follows]), block_means(known[follows]))
+
+    lag = best_lag(missed, _tried(len(values)))
     held = np.zeros(len(known)) if rate is None else -rate[usable]
-    storage = _storage(known[follows], at_once[follows], held[follows], misfit(columns(lag)[follows], known[follows]))
+    storage = _storage(*(block_means(one[follows]) for one in (known, at_once, held)), missed(lag))
     lag = 0.0 if storage > 0.0 else _refined(lag, lambda samples: columns(samples)[follows], known[follows])
     followed, known = columns(lag), known - storage * held
     band = dead_band(known, followed) if may_be_dead else np.nan
@@ -101,6 +107,22 @@ def _refined(lag: float, columns: Callable[[float], Array], values: Array) -> fl
         changes = (columns(lag + 1.0) - followed) @ robust(followed, values)[0]
         lag = max(lag + float(robust(np.column_stack([followed, changes]), values)[0][-1]), 0.5 * lag)
     return lag
+
+
+def _tried(samples: int) -> tuple[float, ...]:
+    """Lags to try, in samples: longer ones for a longer series."""
+    more = np.log2(samples / LONGEST / LAGS[-1])
+    return (*LAGS, *(LAGS[-1] * 2.0**power for power in range(1, int(max(more, 0.0)) + 1)))
+
+
+def block_means(samples: Array) -> Array:
+    """Means (at most BLOCKS, ..) of equal numbers of samples (T, ..) one after the other; few samples themselves."""
+    each = -(-len(samples) // BLOCKS)
+    if each <= 1:
+        return samples
+    starts = np.arange(0, len(samples), each)
+    counts = np.diff([*starts, len(samples)])
+    return np.asarray(np.add.reduceat(samples, starts) / counts.reshape(-1, *[1] * (samples.ndim - 1)))
 
 
 def _storage(values: Array, columns: Array, held: Array, least: float) -> float:
