@@ -32,8 +32,8 @@ _NAMED = {
         "film_extent_unlikely film_hot film_not_thin film_pressure_beyond_oil film_runs_dry film_without_supply "
         "motion_unstable no_3d_picture no_delivery "
         "nothing_feasible pareto_still_grows points_failed port_pressure_follows_line profile_not_resolved "
-        "pumps_refused search_not_settled start_outside_bounds steps_too_long table_guesses operating.temperature "
-        "piston.radial_clearance"
+        "pumps_refused seam_is_a_wall search_not_settled start_outside_bounds steps_too_long table_guesses "
+        "operating.temperature piston.radial_clearance"
     ),
     Grade.DESIGN: (
         "actuator_cavitates block_tips chamber_cavitates chamber_overpressure retainer_gives_way "

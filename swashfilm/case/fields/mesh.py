@@ -11,6 +11,7 @@ from typing import Annotated, ClassVar, Literal
 from reynolds.errors import InputError
 from reynolds.fem.mesh import Cell, FilmMesh, annulus, mesh_from_file, rectangle
 from reynolds.fem.refine import refine_mesh
+from reynolds.fem.seam import sewn
 from swashfilm.case.fields.field import MeshData, mesh_data
 from system.description.parts import MeshUnit
 from system.inputs.sections.fields import FromFile, Length, Limits, Positive, Several
@@ -29,7 +30,7 @@ class BuiltInShape(Enum):
 
 
 class PeriodicDirection(Enum):
-    """Direction in which a rectangle is periodic."""
+    """Direction in which a mesh is periodic."""
 
     NONE = "none"
     X = "x"
@@ -64,10 +65,14 @@ MeshOfFile = Annotated[FileMesh, FromFile(read_film_mesh)]
 
 @dataclass(frozen=True, kw_only=True)
 class FileMeshSection:
-    """A mesh file with the unit of its coordinates; its data are in SI."""
+    """A mesh file with the unit of its coordinates, and its seam; its data are in SI."""
 
     file: MeshOfFile
     unit: MeshUnit = MeshUnit.METRE  # of its coordinates
+    periodic: PeriodicDirection = PeriodicDirection.NONE  # its first and last edges along this axis are one seam
+
+    def __post_init__(self) -> None:
+        self._sewn()
 
     @property
     def data(self) -> MeshData:
@@ -77,8 +82,14 @@ class FileMeshSection:
     @cached_property
     def film_mesh(self) -> FilmMesh:
         """The mesh, m."""
-        mesh = self.file.film_mesh.mesh
-        return replace(self.file.film_mesh, mesh=replace(mesh, doflocs=self.unit.metres * mesh.doflocs))
+        own = self._sewn()
+        return replace(own, mesh=replace(own.mesh, doflocs=self.unit.metres * own.mesh.doflocs))
+
+    def _sewn(self) -> FilmMesh:
+        """Return the mesh in the unit of its file; raise InputError where the sides of its seam do not match."""
+        if self.periodic is PeriodicDirection.NONE:
+            return self.file.film_mesh
+        return sewn(self.file.film_mesh, 0 if self.periodic is PeriodicDirection.X else 1)
 
     def finer(self) -> FileMeshSection:
         """Return the mesh twice finer, with its data."""

@@ -10,6 +10,7 @@ import numpy as np
 from reynolds.fem.space import FilmSpace
 from reynolds.numerics.arrays import Array
 from swashfilm.case.tables.film import extent_of, mean_over
+from swashfilm.runs.film.seam import seam_warnings
 
 if TYPE_CHECKING:
     from swashfilm.case.file import FilmCase
@@ -49,4 +50,5 @@ def extent_warnings(space: FilmSpace, thickness: Array | None) -> Iterator[Warne
 def case_warnings(case: FilmCase) -> list[str]:
     """Return the warnings of a case before it is solved, `name: text` each."""
     thickness = None if case.stated.film.load else case.problem.film.thickness
-    return [f"{name}: {text}" for name, text in extent_warnings(case.problem.space, thickness)]
+    found = (*extent_warnings(case.problem.space, thickness), *seam_warnings(case.problem, case.stated.film.geometry))
+    return [f"{name}: {text}" for name, text in found]

@@ -15,6 +15,7 @@ from reynolds.solve.loads import couette_through, dissipated
 from reynolds.solve.rubbing import rubbing
 from swashfilm.runs.film.extent import Warned, extent_warnings
 from swashfilm.runs.film.scale import natural_sizes
+from swashfilm.runs.film.seam import seam_warnings
 from swashfilm.runs.film.solve.gap import gap_warnings
 from system.inputs.shown import pressure_text
 
@@ -47,6 +48,7 @@ def film_warnings(study: FilmStudy) -> list[dict[str, str]]:
         *_rough_warnings(study),
         *_pressure_warnings(study),
         *_supply_warnings(study),
+        *seam_warnings(study.solution.problem, study.geometry),
         *_heat_warnings(study),
         *_size_warnings(study),
         *_one_sided_warnings(study),

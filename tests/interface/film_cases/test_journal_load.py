@@ -3,11 +3,16 @@
 import json
 import math
 
+import meshio
+import numpy as np
 import pytest
 
 import swashfilm as sf
 from swashfilm.__main__ import main
+from swashfilm.case.file import load_case
 from swashfilm.output.data.files import read_columns
+from swashfilm.runs.film.solve.study import solve_case
+from swashfilm.runs.film.summary import film_summary
 from system import InputFaults
 
 RADIUS, LENGTH, CLEARANCE, SPEED, VISCOSITY = 25e-3, 10e-3, 50e-6, 2.5, 0.03
@@ -87,6 +92,71 @@ def test_a_journal_over_time_keeps_its_load_as_a_vector(tmp_path):
     assert steps["friction torque moving"][-1] == pytest.approx(summary["friction_torque_moving_Nm"], rel=1e-6)
     assert "load" not in steps
     assert steps["attitude angle"][-1] == pytest.approx(math.radians(90.0), abs=1e-6)
+
+
+SHORT = """format = 1
+[film]
+mesh = MESH
+thickness = "50e-6*(1 + 0.6*cos(x/0.025))"
+velocity = ["2.5 m/s", "0 m/s"]
+viscosity = "30 mPa s"
+cavitation_pressure = "-0.7 bar"
+geometry = "cylinder"
+[boundary]
+bottom = { pressure = "0 bar" }
+top = { pressure = "0 bar" }
+"""
+
+
+def _sheet(folder, uneven: float = 0.0) -> None:
+    """Write the unrolled journal of 32 x 4 cells as a mesh file in mm; `uneven` shifts the nodes of its right side."""
+    x, y = np.meshgrid(np.linspace(0.0, 157.07963, 33), np.linspace(0.0, 10.0, 5), indexing="ij")
+    y[-1, 1:-1] += uneven
+    at = np.arange(33 * 5).reshape(33, 5)
+    quads = np.stack([at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]], axis=-1).reshape(-1, 4)
+    points = np.column_stack([x.ravel(), y.ravel(), 0.0 * x.ravel()])
+    meshio.write_points_cells(folder / "sheet.vtu", points, [("quad", quads)])
+
+
+def _named(case) -> set[str]:
+    return {one["name"] for one in film_summary(solve_case(load_case(case)))["warnings"]}
+
+
+def test_a_journal_from_a_mesh_file_closes_at_its_seam(tmp_path):
+    _sheet(tmp_path)
+    case, loads = tmp_path / "case.toml", []
+    built = 'kind = "rectangle", size = ["157.07963 mm", "10 mm"], cells = [32, 4], cell = "quadrilateral"'
+    for mesh in (f'{{ {built}, periodic = "x" }}', '{ file = "sheet.vtu", unit = "mm", periodic = "x" }'):
+        case.write_text(SHORT.replace("MESH", mesh), encoding="utf-8")
+        found = film_summary(solve_case(load_case(case)))
+        assert "seam_is_a_wall" not in {one["name"] for one in found["warnings"]}
+        loads.append(found["bearing_load_N"])
+    assert loads[1] == pytest.approx(loads[0], rel=1e-9)
+    finer = film_summary(solve_case(load_case(case).refined()))
+    assert finer["bearing_load_N"] == pytest.approx(loads[0], rel=0.05)
+
+
+def test_a_seam_that_is_a_wall_is_told(tmp_path, capsys):
+    _sheet(tmp_path)
+    case = tmp_path / "case.toml"
+    case.write_text(SHORT.replace("MESH", '{ file = "sheet.vtu", unit = "mm" }'), encoding="utf-8")
+    assert "seam_is_a_wall" in _named(case)
+    assert main(["check", str(case)]) == 0
+    told = capsys.readouterr().out
+    assert "seam_is_a_wall" in told
+    assert "radius 25 mm" in told
+    held = 'left = { pressure = "0 bar" }\nright = { pressure = "0 bar" }\n'
+    case.write_text(case.read_text("utf-8") + held, encoding="utf-8")
+    assert "seam_is_a_wall" not in _named(case)
+
+
+def test_sides_that_do_not_match_are_no_seam(tmp_path):
+    _sheet(tmp_path, uneven=0.4)
+    case = tmp_path / "case.toml"
+    case.write_text(SHORT.replace("MESH", '{ file = "sheet.vtu", unit = "mm", periodic = "x" }'), encoding="utf-8")
+    with pytest.raises(InputFaults, match=r"a node on left at y = 2\.5 that right lacks by 0\.4") as raised:
+        load_case(case)
+    assert [fault.path for fault in raised.value.faults] == ["film.mesh.periodic"]
 
 
 @pytest.mark.parametrize(
