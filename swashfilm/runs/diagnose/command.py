@@ -36,7 +36,10 @@ def add_diagnose_options(command: argparse.ArgumentParser) -> None:
     what = "elastic walls by solved films, which take about a minute, once for each pump"
     command.add_argument("--film-tables", action="store_true", help=what)
     add_film_options(command)
-    what = "diagnose again whenever a file of the folder RECORDING arrives or changes, until Ctrl-C; a line each time"
+    what = (
+        "diagnose again whenever recording.toml of the folder RECORDING or a table that it names arrives or changes, "
+        "until Ctrl-C: a line and a run folder in runs each time; not beside -o or --apply"
+    )
     command.add_argument("--watch", action="store_true", help=what)
 
 

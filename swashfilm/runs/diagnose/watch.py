@@ -1,4 +1,4 @@
-"""Watch of a recording's folder: the diagnosis again whenever files arrive or change, one line each time."""
+"""Watch of a recording: the diagnosis again whenever its files arrive or change, one line each time."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ from typing import Any
 
 from diagnosis.recording.reader import FILE
 from diagnosis.report.format import effect_words
-from diagnosis.verdict.diagnosis import Diagnosis
+from diagnosis.report.text import finding, headline
+from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
 from reynolds.errors import InputError, NotConverged
 from reynolds.numerics.files import read_text
 from system.inputs.faults import InputFaults
@@ -26,7 +27,7 @@ Files = Mapping[Path, Stamp]
 
 @dataclass(frozen=True)
 class Answer:
-    """Verdict of one diagnosis: kind with status, probability by claimed effect, number of points, its page."""
+    """Verdict of one diagnosis in a sentence, probability by claimed effect, number of points, its page."""
 
     verdict: str
     effects: Mapping[str, float]
@@ -36,14 +37,17 @@ class Answer:
     @property
     def text(self) -> str:
         """The answer in one line."""
-        claimed = ", ".join(f"{name} ({chance:.2f})" for name, chance in self.effects.items())
-        return f"{self.verdict}{f': {claimed}' if claimed else ''}, {self.points} points"
+        claimed = ", ".join(f"{name} (probability {chance:.2f})" for name, chance in self.effects.items())
+        return f"{self.verdict.rstrip('.')}{f': {claimed}' if claimed else ''}, {self.points} points"
 
 
 def answer_of(found: Diagnosis, points: int, page: Path) -> Answer:
     """The answer of a diagnosis of `points` points, in full on its page."""
     effects = {effect_words([claim.effect], claim.pair): claim.probability for claim in found.effects}
-    return Answer(f"{found.kind.value.replace('_', ' ')} ({found.status.value})", effects, points, page)
+    words = headline(found)
+    if found.status is VerdictStatus.SUSPICION:
+        words = finding(found).partition(":")[0]
+    return Answer(words, effects, points, page)
 
 
 def watch(
@@ -52,7 +56,7 @@ def watch(
     show: Callable[[str], None],
     pause: Callable[[float], None] = time.sleep,
 ) -> None:
-    """Show a line for the present folder and for each change of its files; ends by KeyboardInterrupt alone.
+    """Show a line for the present recording and for each change of its files; ends by KeyboardInterrupt alone.
 
     diagnosed: the diagnosis of the present files. A fault of the files and a fit that does not converge are shown, and
     the watch continues. pause: waits so many seconds.
@@ -97,9 +101,9 @@ def changes(folder: Path, pause: Callable[[float], None]) -> Iterator[Files]:
 
 
 def recorded_files(folder: Path) -> Files:
-    """Time and size of the files in a folder, and of the tables that its recording.toml names elsewhere."""
+    """Time and size of a folder's recording.toml and of the tables that it names, as far as they are there."""
     found: dict[Path, Stamp] = {}
-    for path in [*folder.iterdir(), *_tables(folder)]:
+    for path in [folder / FILE, *_tables(folder)]:
         try:
             status = path.stat()
         except OSError:  # gone since
@@ -121,4 +125,8 @@ def _tables(folder: Path) -> Iterator[Path]:
 
 
 def _in_line(reason: Exception) -> str:
-    return " ".join(str(reason).split())
+    """Return an error in one line: of each fault place, found and expected."""
+    if isinstance(reason, InputFaults):
+        told = (f"{one.path}: {one.found}, expected {one.expected}" for one in reason.faults)
+        return "; ".join([reason.source, *told])
+    return "; ".join(line.strip() for line in str(reason).splitlines())
