@@ -129,11 +129,21 @@ def film(
     """
     if 1 in (np.ndim(thickness), np.ndim(viscosity)):
         raise FilmInputError("film", "an array of one axis", "a number, or (1 | cells, 1 | points)")
-    thickness, mu = (np.atleast_2d(np.asarray(field, dtype=float)) for field in (thickness, viscosity))
+    thickness, mu = (
+        np.atleast_2d(_numbers(*one)) for one in (("film thickness", thickness, "m"), ("viscosity", viscosity, "Pa s"))
+    )
     for name, values, unit in (("film thickness", thickness, "m"), ("viscosity", mu, "Pa s")):
         if not _all_finite(values) or values.min() <= 0.0:
             raise FilmInputError(name, f"minimum {values.min():.4g} {unit}", "positive everywhere")
     return Film(thickness, mu, velocity_moving, velocity_fixed, squeeze)
+
+
+def _numbers(name: str, given: object, unit: str) -> Array:
+    """A number or numbers as an array; raises FilmInputError for anything else, such as a text with a unit."""
+    try:
+        return np.asarray(given, dtype=float)
+    except (TypeError, ValueError):
+        raise FilmInputError(name, repr(given), f"a number or an array, {unit}") from None
 
 
 def widened(space: FilmSpace, film: Film, growth: Array) -> Film:
@@ -186,6 +196,9 @@ class FilmProblem:
     def __post_init__(self) -> None:
         self._check_fields()
         self._check_nodal()
+        for name, condition in self.boundary.items():
+            if not isinstance(condition, (Held, Pocket)):
+                raise FilmInputError(f"boundary {name}", repr(condition), f"Held or Pocket, such as {Held(0.0)}")
         if not isinstance(self.cavitation, Cavitation):
             raise FilmInputError("cavitation", repr(self.cavitation), "a member of Cavitation")
         if not np.isfinite(self.cavitation_pressure):
@@ -233,7 +246,7 @@ class FilmProblem:
             raise FilmInputError("storage", f"{held.min():.3g} m3 of oil at an unknown", "none, or more than none")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class FilmSolution:
     """Solution of a film problem, and its quality.
 
@@ -245,13 +258,13 @@ class FilmSolution:
     flows, m3/s. `cavity` marks unknowns at cavitation pressure; `path` is the imbalance after each step.
     """
 
-    problem: FilmProblem = field(repr=False)
+    problem: FilmProblem
     pressure: Array
     film_fraction: Array
-    film: Film = field(repr=False)
+    film: Film
     deformation: Array
-    flux: tuple[Array, Array] = field(repr=False)
-    content: Array = field(repr=False)
+    flux: tuple[Array, Array]
+    content: Array
     outflow: Array
     storage_rate: Array
     upwind_exchange: Array
@@ -259,6 +272,16 @@ class FilmSolution:
     held: NDArray[np.bool_]
     cavity: NDArray[np.bool_]
     path: tuple[float, ...]
+
+    def __repr__(self) -> str:
+        """Size, pressures, film, cavity and quality in a line."""
+        thickness = self.film.thickness
+        return (
+            f"FilmSolution({len(self.pressure)} unknowns, {np.count_nonzero(self.cavity)} of them in a cavity: "
+            f"pressure {self.pressure.min():.4g} to {self.pressure.max():.4g} Pa, "
+            f"film {thickness.min():.4g} to {thickness.max():.4g} m, "
+            f"imbalance {self.imbalance:.2g} after {self.iterations} steps)"
+        )
 
     @cached_property
     def holds(self) -> Array:

@@ -6,12 +6,13 @@ A mesh from a file keeps its own names; other edges are named by their place.
 
 import contextlib
 import io
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cached_property
+from operator import index
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar, cast
 
 import numpy as np
 import skfem
@@ -24,6 +25,7 @@ from reynolds.fem.mesh_check import mesh_faults
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.files import expect_regular, is_file
 
+_Number = TypeVar("_Number", int, float)
 FLAT = 1e-9
 """Largest height of a plane mesh, of its extent."""
 
@@ -73,8 +75,12 @@ def rectangle(
 ) -> FilmMesh:
     """A regular nx x ny mesh of [x0, x0+Lx] x [y0, y0+Ly] with boundaries left, right, bottom, top (m).
 
-    Raises FilmInputError for a size that is not positive or fewer than one cell each way.
+    Raises FilmInputError for a size that is not positive, for cells that are no whole numbers, at least one each way,
+    and for a cell that is no `Cell`.
     """
+    size = _pair("rectangle, size", size, float, "two lengths, along x and y")
+    cells = _pair("rectangle, cells", cells, index, "two whole numbers, along x and y")
+    _check_cell("rectangle, cell", cell)
     if not all(0.0 < length < np.inf for length in size):
         raise FilmInputError("rectangle, size", f"{size[0]:g} x {size[1]:g} m", "positive lengths")
     if min(cells) < 1:
@@ -95,6 +101,20 @@ def rectangle(
     return FilmMesh(_named(mesh, {name: np.flatnonzero(on) for name, on in sides.items()}), seams)
 
 
+def _pair(where: str, given: object, number: Callable[[Any], _Number], expected: str) -> tuple[_Number, _Number]:
+    """Two numbers; raises FilmInputError for anything else."""
+    try:
+        first, second = (number(one) for one in cast(Iterable[Any], given))
+    except (TypeError, ValueError):
+        raise FilmInputError(where, repr(given), expected) from None
+    return first, second
+
+
+def _check_cell(where: str, cell: object) -> None:
+    if not isinstance(cell, Cell):
+        raise FilmInputError(where, repr(cell), " or ".join(map(str, Cell)))
+
+
 def annulus(
     inner_radius: float, outer_radius: float, cells: tuple[int, int], *, cell: Cell = Cell.QUADRILATERAL
 ) -> FilmMesh:
@@ -102,6 +122,8 @@ def annulus(
 
     Raises FilmInputError as `ring`, and where there is no radial cell.
     """
+    cells = _pair("ring, cells", cells, index, "two whole numbers, radial and around")
+    inner_radius, outer_radius = _pair("ring, radii", (inner_radius, outer_radius), float, "two lengths")
     if cells[0] < 1:
         raise FilmInputError("ring, radial cells", f"{cells[0]}", "at least one")
     return ring(np.linspace(inner_radius, outer_radius, cells[0] + 1), cells[1], cell=cell)
@@ -118,6 +140,7 @@ def ring(
     """
     if not (radii[0] > 0.0 and np.isfinite(radii).all() and (np.diff(radii) > 0.0).all()):
         raise FilmInputError("ring, radii", f"{radii[0]:g} .. {radii[-1]:g} m", "rising, from above zero")
+    _check_cell("ring, cell", cell)
     if around < 3:
         raise FilmInputError("ring, sectors", f"{around}", "at least three")
     radial = len(radii) - 1

@@ -18,7 +18,7 @@ from reynolds.equation.companion import companion_of, film_on_nodes
 from reynolds.equation.deformation_sparsity import ElasticPatterns
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.fem.space import FilmSpace
-from reynolds.laws.fluid import CONSTANT
+from reynolds.laws.fluid import CONSTANT, check_laws
 from reynolds.linear.elastic import NearFactor
 from reynolds.linear.factor import ITERATIVE_TOLERANCE, Factor, GeneralFactor, Solve, row_by_row
 from reynolds.linear.multigrid.grid import grid_of
@@ -71,16 +71,20 @@ class FilmSolver:
         self._cascade: Cascade | None = None
         self._answers: _Answers | None = None
         self._answered: FilmSolution | None = None  # the film that came of them
+        self._tried = CONSTANT  # the fluid whose laws are checked
 
     def solve(self, problem: FilmProblem, start: FilmSolution | None = None) -> FilmSolution:
         """The film of `problem`; `start` gives the first pressures, film fractions and cavity.
 
         Afterwards every free unknown's flow balance holds to 1e-9 of the flows that meet there. Raises
-        FilmInputError as `check_pressures` does and for a `start` or a problem of another mesh, and
+        FilmInputError as `check_pressures` and `check_laws` do and for a `start` or a problem of another mesh, and
         FilmNotConverged when that is not reached or a cavity has a negative film fraction.
         """
         if problem.space.pattern is not self._pattern:
             raise FilmInputError("space", "another mesh", "the space of this solver, moved or not")
+        if problem.fluid is not CONSTANT and problem.fluid is not self._tried:
+            check_laws(problem.fluid, problem.film.viscosity, problem.space.area.shape)
+            self._tried = problem.fluid
         if start is not None and len(start.pressure) != problem.space.size:
             raise FilmInputError("start", "a film of another mesh", "one of the space of this solver")
         if start is None and (simpler := _simpler(problem)) is not None:
