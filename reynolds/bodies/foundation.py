@@ -10,7 +10,9 @@ from reynolds.bodies.elasticity import Elastic
 from reynolds.errors import FilmInputError
 from reynolds.fem.space import FilmSpace
 from reynolds.numerics.arrays import Array
+from reynolds.numerics.memory import physical_memory
 
+DENSE_COPIES = 4  # of the influences at a time, as measured
 BLOCK = 128  # points at a time: bounds the memory beside the result
 
 
@@ -40,10 +42,14 @@ def half_space(space: FilmSpace, elastic: Elastic) -> Compliance:
 
     Love's (1929) integral of a rectangle, and likewise of any convex cell; symmetric in mean square up to the
     error of the mesh. Validity: plane film, much smaller than the body; rigid motion is not removed (the
-    reference is the body far away). Raises FilmInputError for a film with seams: an unrolled cylinder is no plane.
+    reference is the body far away). Raises FilmInputError for a film with seams: an unrolled cylinder is no plane; and
+    where the influences need more memory than the machine has (`half_space_memory`).
     """
     if space.film_mesh.seams:
         raise FilmInputError("half-space", "a film sewn at a seam", "a plane film (an unrolled one takes a body)")
+    needed = half_space_memory(len(space.vertices), space.size)
+    if needed > physical_memory():
+        raise FilmInputError("half-space", *too_large(needed, space.size))
     count = space.dofs.shape[0]
     mean = space.area @ space.reference.value / space.area.sum(axis=1)[:, None]
     rows = np.repeat(np.arange(count), space.dofs.shape[1])
@@ -51,6 +57,20 @@ def half_space(space: FilmSpace, elastic: Elastic) -> Compliance:
     factor = (1.0 - elastic.poisson_ratio**2) / (np.pi * elastic.youngs_modulus)
     influence = factor * polygon_potential(space.vertices, space.vertices[space.cells])
     return Compliance(np.asarray((average.T @ influence.T).T))
+
+
+def half_space_memory(vertices: int, unknowns: int) -> float:
+    """Memory, bytes, in which a film between half-spaces is solved: its dense influences and what the solver makes."""
+    return DENSE_COPIES * 8.0 * vertices * unknowns
+
+
+def too_large(needed: float, unknowns: int) -> tuple[str, str]:
+    """What was found and expected of a film whose influences do not fit into the machine's memory (bytes)."""
+    there = physical_memory()
+    fit = int(np.sqrt(there / (8.0 * DENSE_COPIES)))
+    found = f"{unknowns} unknowns, each of which deforms all others: about {needed * 1e-9:.3g} GB"
+    expected = f"at most the {there * 1e-9:.3g} GB of this machine, about {fit} unknowns: fewer cells or meshes, or a"
+    return found, f"{expected} body with sizes (plate, disc, ring) in place of half_space"
 
 
 def polygon_potential(points: Array, corners: Array) -> Array:

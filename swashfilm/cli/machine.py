@@ -9,8 +9,10 @@ from collections.abc import Iterable
 from ctypes.util import find_library
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, requires, version
+from math import isinf
 from pathlib import Path
 
+from reynolds.numerics.memory import physical_memory
 from swashfilm.output.scenes.picture3d import REMEDY, Frame, draw
 from swashfilm.runs.export.fmu.compiler import REMEDY as COMPILER, targets
 from system.work.processes import cores
@@ -78,9 +80,8 @@ def _packages() -> list[Finding]:
 
 
 def _memory() -> Finding:
-    try:
-        size = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    except (ValueError, OSError, AttributeError):
+    size = physical_memory()
+    if isinf(size):
         return Finding("memory", "not known")
     remedy = f"a run with films needs {LEAST_MEMORY / 1e9:g} GB" if size < LEAST_MEMORY else ""
     return Finding("memory", f"{size / 1e9:.1f} GB", remedy)

@@ -46,6 +46,11 @@ class ElasticStatement:
     stated: ElasticSection
     bodies: Mapping[str, Body]
 
+    @property
+    def has_half_space(self) -> bool:
+        """True where a wall is a half-space, whose influences are dense."""
+        return any(isinstance(wall, HalfSpaceSection) for wall in self.stated.walls.values())
+
     def walls(self, space: FilmSpace) -> ElasticWalls:
         """Return the compliance of all walls; raise InputError where a body does not lie under the film."""
         stiffness = self.stated.winkler

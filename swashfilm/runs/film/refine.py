@@ -6,7 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from reynolds.bodies.foundation import half_space_memory, too_large
 from reynolds.numerics.convergence import convergence
+from reynolds.numerics.memory import physical_memory
 from swashfilm.case.fields.mesh import MOST_CELLS
 from swashfilm.case.file import FilmCase
 from swashfilm.case.gap.instant import GapCase
@@ -17,7 +19,7 @@ from swashfilm.runs.film.scale import natural_sizes
 from swashfilm.runs.film.solve.study import FilmStudy, solve_case
 from swashfilm.runs.film.summary import film_summary
 from system.inputs.faults import Fault, InputFaults
-from system.work.progress import Report
+from system.work.progress import Report, Stage
 
 CHECKS = ("time_steps", "mass_balance_error_of_time", "cylinder_radius_m")
 """Numbers without a limit: a count, round-off, and a size of the mesh."""
@@ -34,8 +36,21 @@ def check_refinement(case: FilmCase | GapCase, meshes: int) -> None:
     if time and (steps := time.steps * 2 ** (meshes - 1)) > MOST_STEPS:
         found = f"{meshes} meshes, the steps halved with each: {steps} steps"
         faults.append(Fault("--refine", found, f"at most {MOST_STEPS} steps"))
+    faults += _memory_faults(case, meshes)
     if faults:
         raise InputFaults("command line", faults)
+
+
+def _memory_faults(case: FilmCase, meshes: int) -> list[Fault]:
+    """Return a fault where the finest mesh between half-spaces needs more memory than the machine has."""
+    elastic, space, finer = case.stated.elastic, case.problem.space, 4 ** (meshes - 1)
+    if elastic is None or not elastic.has_half_space:
+        return []
+    needed = half_space_memory(finer * len(space.vertices), finer * space.size)
+    if needed <= physical_memory():
+        return []
+    found, expected = too_large(needed, finer * space.size)
+    return [Fault("--refine", f"{meshes} meshes, the finest of about {found}", expected)]
 
 
 def refine_study(case: FilmCase | GapCase, study: FilmStudy, meshes: int, report: Report) -> Refinement:
@@ -45,9 +60,13 @@ def refine_study(case: FilmCase | GapCase, study: FilmStudy, meshes: int, report
     """
     studies = [study]
     for number in range(1, meshes):
-        report(number, meshes, f"mesh {number + 1} of {meshes}")
+        label = f"mesh {number + 1} of {meshes}"
+        report(number, meshes, Stage(f"{label}, its fields and walls"))
         case = case.refined()
-        studies.append(solve_case(case))
+        told = _of_mesh(report, number, meshes, label)
+        if isinstance(case, FilmCase):
+            told(0, 0, Stage(f"{case.problem.space.size} unknowns"))
+        studies.append(solve_case(case, told))
     rows = [_converging(case, film_summary(replace(one, sensitivity=None))) for one in studies]
     expected = expected_orders(studies[-1])
     size = sizes(rows[-1], natural_sizes(studies[-1].solution))
@@ -57,6 +76,16 @@ def refine_study(case: FilmCase | GapCase, study: FilmStudy, meshes: int, report
         {key: convergence([row[key] for row in rows], expected, size[key]) for key in rows[0]},
         tuple(len(one.history) for one in studies) if study.history else (),
     )
+
+
+def _of_mesh(report: Report, number: int, meshes: int, label: str) -> Report:
+    """Return the progress of a mesh: its words, and the steps of a transient."""
+
+    def told(done: int, steps: int, what: str) -> None:
+        words = f"{label}, {what}" + (f" ({done} of {steps})" if steps else "")
+        report(number, meshes, Stage(words) if isinstance(what, Stage) else words)
+
+    return told
 
 
 def _converging(case: FilmCase | GapCase, summary: Mapping[str, Any]) -> dict[str, float]:

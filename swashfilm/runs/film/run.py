@@ -25,7 +25,7 @@ from swashfilm.runs.film.solve.gap import true_place
 from swashfilm.runs.film.solve.sensitivity import check_sensitivity, sensitivities
 from swashfilm.runs.film.solve.study import FilmStudy, solve_case
 from swashfilm.runs.film.summary import film_summary
-from system.work.progress import Report, silent
+from system.work.progress import Report, Stage, silent
 
 if TYPE_CHECKING:
     import xarray
@@ -53,7 +53,8 @@ def solve_film(
     if outputs:
         check_sensitivity(case, outputs)
     stages = _STAGES + meshes - 1
-    report(0, stages, "solving")
+    unknowns = f", {case.problem.space.size} unknowns" if isinstance(case, FilmCase) else ""
+    report(0, stages, Stage(f"solving{unknowns}"))
     study = solve_case(case, lambda done, steps, what: report(0, stages, f"solving, {what} ({done} of {steps})"))
     if outputs:
         report(0, stages, "solving the adjoint")

@@ -290,3 +290,37 @@ def test_a_transient_of_too_many_steps_is_told(tmp_path, capsys):
     path.write_text(SQUEEZED.replace("50 ms", "1 us"), encoding="utf-8")
     assert main(["film", str(path), "--refine", "3"]) == 2
     assert "at most 1000000 steps" in capsys.readouterr().err
+
+
+HALF_SPACE = """
+format = 1
+[film]
+mesh = { kind = "annulus", inner_radius = "1 mm", outer_radius = "10 mm", cells = [12, 16] }
+thickness = "20 um"
+viscosity = "30 mPa s"
+cavitation = "none"
+[elastic]
+moving = { kind = "half_space", youngs_modulus = "210 GPa", poissons_ratio = 0.3 }
+[boundary]
+inner = { pressure = "100 bar" }
+outer = { pressure = "0 bar" }
+"""
+
+
+def test_half_spaces_beyond_the_memory_are_refused_before_they_are_solved(tmp_path, monkeypatch, capsys):
+    path = tmp_path / "case.toml"
+    path.write_text(HALF_SPACE, encoding="utf-8")
+    needed = 4 * 8 * (13 * 16) ** 2
+    for place in ("reynolds.bodies.foundation", "swashfilm.runs.film.refine"):
+        monkeypatch.setattr(f"{place}.physical_memory", lambda: 20.0 * needed)
+    assert main(["film", str(path), "--refine", "3"]) == 2
+    told = capsys.readouterr().err
+    assert "3328 unknowns, each of which deforms all others: about 0.354 GB" in told
+    assert "plate, disc, ring" in told
+    assert main(["film", str(path), "--refine", "2", "-o", str(tmp_path / "run")]) == 0
+    told = capsys.readouterr().err
+    assert "mesh 2 of 2, its fields and walls" in told
+    assert "mesh 2 of 2, 800 unknowns" in told
+    monkeypatch.setattr("reynolds.bodies.foundation.physical_memory", lambda: 0.5 * needed)
+    assert main(["film", str(path)]) == 2
+    assert "elastic.moving" in capsys.readouterr().err
