@@ -35,6 +35,8 @@ NARROWED = 0.5
 """Of the prior's sigma: a size known no better is not limited by the recording."""
 MATERIAL = 0.002
 """Of the median of a channel: smaller changes are not reported."""
+UNSEEN = 0.01
+"""Of one sigma of a channel: a smaller change of it is none."""
 MOST_TOLD = 3
 """Effects in a sentence."""
 HEAD = (
@@ -48,7 +50,8 @@ class HiddenEffect:
     """An effect at the largest size that the recording allows.
 
     limited: the recording narrows the size; otherwise `size` is the prior's limit. changes: (C,) in SI, largest
-    addition of the effect alone to each channel. relative: largest of them over the median of its channel.
+    addition of the effect alone to each channel, 0 where the meter does not see it (`UNSEEN`). relative: largest of
+    them over the median of its channel.
     """
 
     effect: EffectId
@@ -137,7 +140,7 @@ def _sizes(study: Study, fit: Posterior, candidates: Sequence[Candidate], width:
         size = spread * largest_size(float(mean), float(sigma), one.sign)
         xi = float(np.clip(size, parameter.lowest, parameter.highest))
         value = Estimate(parameter.name, parameter.value(xi), 0.0, parameter.dimension)
-        changes = _strongest(study.base.whitening.unwhiten(one.column * xi)[:, : len(study.channels)])
+        changes = _seen(study, _strongest(study.base.whitening.unwhiten(one.column * xi)[:, : len(study.channels)]))
         relative = float(np.max(np.abs(changes) / _medians(study)))
         pair = None if one.extension is None else one.extension.pair
         yield HiddenEffect(one.entry.id, pair, value, bool(sigma < NARROWED), changes, relative)
@@ -155,6 +158,13 @@ def largest_size(mean: float, sigma: float, sign: Sign) -> float:
 def _strongest(changes: Array) -> Array:
     """(C,), of changes (N, C) of each channel the one of largest absolute value."""
     return np.asarray(np.take_along_axis(changes, np.abs(changes).argmax(axis=0)[None], axis=0)[0])
+
+
+def _seen(study: Study, changes: Array) -> Array:
+    """The changes (C,), 0 where smaller than `UNSEEN` of the channel's sigma, its readings' step included."""
+    own, count = study.observations, len(study.channels)
+    sigma = np.nanmedian(np.hypot(own.sigma, own.quantum / np.sqrt(12.0)), axis=0)[:count]
+    return np.where(np.abs(changes) < np.maximum(UNSEEN * sigma, np.finfo(float).eps * _medians(study)), 0.0, changes)
 
 
 def _medians(study: Study) -> Array:

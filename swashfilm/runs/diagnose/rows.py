@@ -158,11 +158,15 @@ def _signed(value: float) -> str:
 
 
 def change_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...]]:
-    """(quantity, without, with, change, share of the shaft power of both) of a point run without and with it."""
+    """(quantity, without, with, change, share of the shaft power of both) of a point run without and with it.
+
+    The change of a quantity that reads the same in both is 0.
+    """
     shaft = shaft_power(rows)
     for row in rows:
-        both = (f"{_plain(float(row[key]), 4)} {row['unit']}" for key in (WITHOUT, WITH))
-        moved = f"{_plain(float(row['change']), 3)} {'points' if row['unit'] == '%' else row['unit']}"
+        both = [f"{_plain(float(row[key]), 4)} {row['unit']}" for key in (WITHOUT, WITH)]
+        change = 0.0 if both[0] == both[1] else float(row["change"])
+        moved = f"{_plain(change, 3)} {'points' if row['unit'] == '%' else row['unit']}"
         shares = (f"{100.0 * float(row[key]) / whole:.2f} %" for key, whole in shaft.items() if row["unit"] == "W")
         yield row["quantity"], *both, moved, " -> ".join(shares)
 

@@ -25,7 +25,7 @@ from swashfilm.__main__ import main
 from swashfilm.runs.diagnose.files import head_of, read_rows, write_diagnosis_files, write_rows
 from swashfilm.runs.diagnose.page import AXES, strongest_courses, write_diagnose_page
 from swashfilm.runs.diagnose.plots import effect_courses, residual_maps
-from swashfilm.runs.diagnose.rows import claim_rows, moved_words, place_rows, tiles
+from swashfilm.runs.diagnose.rows import change_rows, claim_rows, moved_words, place_rows, tiles
 from swashfilm.runs.diagnose.told import MOST_LINES, WIDTH, answer_lines
 from system import ChannelName, EffectId, Kind, load_pump
 from system.work.progress import silent
@@ -309,3 +309,8 @@ def test_maps_of_one_speed_are_drawn_over_temperature(study: Study, named: Diagn
     for at, row in enumerate(rows):
         row |= {"speed [rpm]": "", "T_case [degC]": str(30 + at)}
     assert residual_maps(rows).axes[-2].get_xlabel() == "case temperature [degC]"
+
+
+def test_a_quantity_that_reads_the_same_has_no_change() -> None:
+    row = {"quantity": "friction", "unit": "W", "without": "84.8638", "with": "84.8634", "change": "-0.00037"}
+    assert next(iter(change_rows([row])))[:4] == ("friction", "84.86 W", "84.86 W", "0 W")

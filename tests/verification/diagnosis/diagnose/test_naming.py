@@ -271,11 +271,20 @@ def test_a_hidden_effect_has_its_place_and_what_it_changes() -> None:
         abs(bleed.changes[1]) / np.median(np.abs(study.observations.values[:, 1])), rel=1e-12
     )
     gain = found[EffectId.TORQUE_GAIN, None]
-    assert gain.changes[:2] == pytest.approx(0.0)
+    assert list(gain.changes[:2]) == [0.0, 0.0]
     assert abs(gain.changes[2]) == pytest.approx(abs(gain.size.value) * study.observations.values[:, 2].max(), rel=0.02)
     claimed = replace(nothing, effects=(ClaimedEffect(CONTROL.id, None, 0.9, (), ()),))
     assert CONTROL.id not in {each.effect for each in hidden_effects(study, claimed)}
     assert all(each.relative > 0.002 for each in found.values())
+
+
+def test_a_change_that_no_meter_sees_is_none() -> None:
+    """Rounding of the sums, and less than a hundredth of a channel's sigma."""
+    study, nothing = _study(0), _diagnosis(_study(0))
+    sigma = np.median(study.observations.sigma, axis=0)
+    for one in hidden_effects(study, nothing):
+        small = one.changes[one.changes != 0.0] / sigma[one.changes != 0.0]
+        assert np.all(np.abs(small) >= 0.01)
 
 
 @pytest.mark.parametrize(
