@@ -18,8 +18,10 @@ from reynolds.solve.solver import FilmSolver
 from reynolds.solve.warm_start import from_last_or_anew
 
 TOLERANCE = 1e-6  # of the load, and of the load at the film's edge for moments
+NEARLY = 1e-3  # of the load: the force is met, and only the moments are not
 MOST_FILMS = 200
 THICKEST, THINNEST = 1.0, 1e-9  # least gap over the film's extent; beyond, no film
+MOLECULE = 1e-9  # m, of an oil: no thinner gap holds a film
 USUAL_GAP = 1e-4  # of the extent, where the shape is flat
 SOFT_START = 0.7  # first place between elastic walls: unit steps from there do not meet a zero gap
 LEAST_STEP, MOST_STEP = 1e-3, 2.5  # of the logarithm of the least gap
@@ -218,7 +220,8 @@ class _LoadSearch:
         longest = MOST_STEP
         step = 1.0 if last.misses[0] > 0.0 else -1.0
         while True:
-            if abs(step) < LEAST_STEP or not self._ends[0] < at + step < self._ends[1]:
+            step = float(np.clip(at + step, *self._ends)) - at
+            if abs(step) < LEAST_STEP:
                 raise _Nowhere
             new = self._tried(self._leaning(at + step, lean))
             if new is None:  # a shorter step may reach it
@@ -298,18 +301,32 @@ class _LoadSearch:
     def _least(self, position: Position) -> float:
         return float((self._shape + position.of(self._x, self._y)).min())
 
+    def _searched(self) -> str:
+        """Limits of the search in words, with those beyond which nothing is a film."""
+        low, high = (self._scale * np.exp(end) for end in self._ends)
+        if self._problem.walls is not None:
+            low = self._scale * (np.exp(self._ends[0]) - np.exp(-self._ends[0]))
+        told = f"least gaps of {low:.3g} to {high:.3g} m, the film's extent, were open to the search"
+        assert self._best is not None
+        if self._problem.walls is None and self._best.gap < MOLECULE:
+            told += f"; below {MOLECULE:g} m, the size of an oil's molecules, there is no film"
+        return told
+
     def verdict(self) -> FilmNotConverged:
-        """The error with the nearest supported load."""
+        """The error with the nearest supported load, and the limits of the search."""
         assert self._best is not None
         best, load = self._best, self._load
         asked = f"{load.force:.6g} N" + ("" if self.free == [0] else " and its moments")
         at = best.position
         tilts = "" if self.free == [0] else f", slopes {at.slope_x:.3g} and {at.slope_y:.3g}"
         moments = "" if self.free == [0] else f" with moments {best.supported[1]:.4g} and {best.supported[2]:.4g} N m"
+        side = "that this shape can bear"
+        if abs(best.misses[0]) > NEARLY:
+            side = "above that" if best.misses[0] > 0.0 else "below that"
         return FilmNotConverged(
             f"no position of the walls bears {asked}; nearest after {self.films} films: {best.supported[0]:.6g} N"
-            f"{moments} at separation {at.separation:.4g} m{tilts}",
-            "a load that this shape can bear, another shape or speed, or a load nearer to the middle of the film",
+            f"{moments} at separation {at.separation:.4g} m{tilts}; {self._searched()}",
+            f"a load {side}, another shape or speed, or a load nearer to the middle of the film",
         )
 
 

@@ -150,10 +150,30 @@ def test_what_no_position_bears_is_told_with_the_nearest():
     with pytest.raises(FilmNotConverged, match="no position of the walls bears 10 N; nearest after"):
         carry_load(level, RigidLoad(10.0))
     pressed = replace(level, boundary={"left": Held(1e6), "right": Held(1e6)}, cavitation=Cavitation.NONE)
-    with pytest.raises(FilmNotConverged, match=r"bears 10 N; nearest after .* films: 20 N"):
+    with pytest.raises(FilmNotConverged, match=r"bears 10 N; nearest after .* films: 20 N") as raised:
         carry_load(pressed, RigidLoad(10.0))
+    assert "a load above that" in str(raised.value)
     with pytest.raises(FilmInputError, match="above zero"):
         RigidLoad(-1.0)
+
+
+def test_the_search_reaches_its_limits_and_tells_them():
+    """A load of a gap near the film's extent is found; of a smaller and of a huge load the limits are told."""
+    problem = _problem(_space(16), lambda x, y: 1e-5 * (1.0 - x / LENGTH), velocity_moving=SLIDING)
+    widest = np.sqrt(LENGTH * WIDTH)
+    at_widest = replace(problem, film=replace(problem.film, thickness=problem.film.thickness + 0.99 * widest))
+    least = loads(FilmSolver(problem.space).solve(at_widest)).load
+    found = carry_load(problem, RigidLoad(1.5 * least))
+    assert 0.5 * widest < found.position.separation < widest
+    with pytest.raises(FilmNotConverged, match="were open to the search") as raised:
+        carry_load(problem, RigidLoad(0.1 * least))
+    assert f"to {widest:.3g} m" in str(raised.value)
+    assert "a load above that" in str(raised.value)
+    with pytest.raises(
+        FilmNotConverged, match="below 1e-09 m, the size of an oil's molecules, there is no film"
+    ) as raised:
+        carry_load(problem, RigidLoad(1e9))
+    assert "a load below that" in str(raised.value)
 
 
 def test_a_film_without_a_solution_is_solved_cold_once(monkeypatch):
