@@ -42,6 +42,7 @@ TOUCHED = '<script type="text/plain" class="touch">'
 _HEADING = re.compile(r"<h2>(.*?)</h2>", re.DOTALL)
 _NUMBER = re.compile(r"[-+<>~]?\d[\d.e+-]*( \+- [\d.e-]+)?( ?[a-zA-Z%/0-9]{1,6}( [a-z/]{1,4})?)?$")
 _TIED = re.compile(r"(?<=\d) (?=\S)|(?<=\+-) (?=\d)|(?<=\bN) (?=m\b)|(?<=\bPa) (?=s\b)|(?<=mPa) (?=s\b)")
+_BEFORE_UNIT = re.compile("(?<=\\d)\u00a0(?=\\D)")
 _PICTURES = {b"\x89PNG": "png", b"RIFF": "webp", b"GIF8": "gif", b"<?xm": "svg+xml"}
 
 
@@ -108,7 +109,7 @@ def write_page(folder: Path, template: str, *, answer: Answer, **content: Any) -
 
     environment = Environment(loader=PackageLoader("swashfilm.output"), autoescape=True)
     environment.tests["numeric"] = lambda cell: _NUMBER.match(str(cell)) is not None
-    environment.filters["tied"] = tied
+    environment.filters |= {"tied": tied, "kept": kept}
     notes = causes(content.get("warnings", content.get("summary", {}).get("warnings", ())))
     page = environment.get_template(f"{template}.html.jinja").render(
         answer=answer, files=_files_of(folder), notes=notes, notes_line=counted(notes) if notes else "", **content
@@ -121,6 +122,11 @@ def write_page(folder: Path, template: str, *, answer: Answer, **content: Any) -
 def tied(text: object) -> str:
     """Return a text in which no line ends between a number and its unit, or inside a unit."""
     return _TIED.sub("\u00a0", str(text))
+
+
+def kept(text: object) -> str:
+    """Return a text in which no line ends inside a unit; one may end before it, where number and unit are too long."""
+    return _BEFORE_UNIT.sub(" ", tied(text))
 
 
 def _with_contents(page: str) -> str:

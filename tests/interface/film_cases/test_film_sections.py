@@ -10,7 +10,7 @@ import pytest
 import swashfilm as sf
 from swashfilm.__main__ import main
 from swashfilm.runs.film.fields.history import last_of
-from swashfilm.runs.film.fields.sections import HIGHEST, LEAST, places, sections
+from swashfilm.runs.film.fields.sections import HIGHEST, LEAST, places, section_figure, sections
 
 SLIDER = """
 format = 1
@@ -104,3 +104,11 @@ def test_a_triangle_ring_is_even_round_its_circumference_too(tmp_path):
     text = RING.replace("[16, 48]", '[16, 12], cell = "triangle"')
     _, (_, round_) = solved(text, tmp_path)
     assert round_.values["film_pressure"] == pytest.approx(np.full(len(round_.cut.x), 1e6), rel=1e-5)
+
+
+def test_the_names_of_the_lines_stand_below_each_other(tmp_path):
+    """On a narrow page names side by side would lie on each other."""
+    _, found = solved(SLIDER, tmp_path)
+    legend = section_figure(found).axes[-2].get_legend()
+    assert legend._ncols == 1
+    assert len(legend.get_texts()) == 2

@@ -2,12 +2,13 @@
 
 import ast
 import re
+from importlib.resources import files
 from pathlib import Path
 
 import pytest
 
 from swashfilm.output.answer import Answer
-from swashfilm.output.page import tied, write_page
+from swashfilm.output.page import kept, tied, write_page
 from swashfilm.output.warnings import GRADES, Grade, causes, counted, grade_of
 from system.pump.assembly import PointWarning
 
@@ -105,3 +106,10 @@ def test_numbers_stay_with_their_units():
         tied("3.2 N m at 4 deg, 1 +- 0.2 mPa s")
         == "3.2\u00a0N\u00a0m at 4\u00a0deg, 1\u00a0+-\u00a00.2\u00a0mPa\u00a0s"
     )
+
+
+def test_a_tile_breaks_before_a_unit_never_in_it():
+    assert kept("338.3 mL/min") == "338.3 mL/min"
+    assert kept("3.2 N m") == "3.2 N\u00a0m"
+    style = files("swashfilm.output").joinpath("templates", "page.css").read_text("utf-8")
+    assert "overflow-wrap: anywhere" not in next(line for line in style.splitlines() if ".tile b {" in line)

@@ -130,7 +130,7 @@ def section_figure(found: Sequence[Section]) -> Figure:
         row[0].set_ylabel(title_in(field.words.partition(",")[0], field.unit))
     for axes, words in zip(panels[-1], cuts, strict=True):
         axes.set_xlabel(next(one.cut.title for one in found if one.cut.words == words))
-    legend_below(panels[-1][0])
+    legend_below(panels[-1][0], columns=1)
     return figure
 
 

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 LEAST_CHANGE = 1e-5  # relative variation below which a number is not drawn
 LOG_FROM = 30.0  # ratio of an axis' ends above which the axis is logarithmic
+FEW_PLAIN, MOST_PLAIN = 8.0, 1e3  # ratios of a logarithmic axis' ends: of equal steps, of 1, 2 and 5 of each ten
 LOG_TO = 1e6  # ratio of an axis' ends above which the small end counts as zero
 MOST_LINES = 12
 LEGEND_LINE = 0.17  # height of a line of the legend, inches
@@ -86,7 +87,7 @@ def _lines(axes: Any, data: xarray.Dataset, key: str) -> None:
     if labels:
         axes.set_xticks(places, labels, rotation=20, ha="right", fontsize=7)
     elif _is_geometric(places):
-        axes.set_xscale("log")
+        _set_log(axes, "x", places)
     if _is_wide(field.values):
         axes.set_yscale("log")
     axes.set(xlabel=_axis_title(data, str(along)), ylabel=titled_key(key))
@@ -98,9 +99,9 @@ def _map(figure: Any, axes: Any, data: xarray.Dataset, key: str) -> None:
     across, along = (str(dim) for dim in data[key].dims)
     x, y = (axis_unit(data, dim).of(data[dim].values) for dim in (across, along))
     values = shown_of(key).of(data[key].values.T)
-    for places, scale in ((x, axes.set_xscale), (y, axes.set_yscale)):
+    for places, axis in ((x, "x"), (y, "y")):
         if _is_geometric(places):
-            scale("log")
+            _set_log(axes, axis, places)
     norm = "log" if _is_wide(values) else "linear"
     whole = np.isfinite(values).all() and min(values.shape) > 2
     drawn = axes.pcolormesh(x, y, values, shading="gouraud" if whole else "nearest", norm=norm)
@@ -110,6 +111,18 @@ def _map(figure: Any, axes: Any, data: xarray.Dataset, key: str) -> None:
         axes.plot(*(part.ravel() for part in np.meshgrid(x, y)), ".", color="black", markersize=1.5)
     axes.set(xlabel=_axis_title(data, across), ylabel=_axis_title(data, along))
     figure.colorbar(drawn, ax=axes)
+
+
+def _set_log(axes: Any, axis: str, places: np.ndarray) -> None:
+    """Make an axis logarithmic; over less than MOST_PLAIN its few numbers are written in full."""
+    from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, StrMethodFormatter
+
+    getattr(axes, f"set_{axis}scale")("log")
+    own, ratio = getattr(axes, f"{axis}axis"), float(places.max() / places.min())
+    if ratio < MOST_PLAIN:
+        own.set_major_locator(MaxNLocator(5) if ratio < FEW_PLAIN else LogLocator(subs=(1.0, 2.0, 5.0)))
+        own.set_major_formatter(StrMethodFormatter("{x:.4g}"))
+        own.set_minor_formatter(NullFormatter())
 
 
 def _levels(values: np.ndarray) -> np.ndarray:
