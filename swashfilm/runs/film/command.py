@@ -26,7 +26,10 @@ SOFT_PRICE = "elastic walls take about ten times as long as --rigid --isoviscous
 def add_film_options(command: argparse.ArgumentParser) -> None:
     """Add the arguments of the command to its parser."""
     command.add_argument("case", type=Path, metavar="CASE.toml", help="the film case")
-    command.add_argument("--refine", metavar="N", help="solve on N meshes, each twice as fine; report order and limit")
+    command.add_argument(
+        "--refine", metavar="N",
+        help="solve on N meshes, each twice as fine with half the time step; report order and limit",
+    )  # fmt: skip
     command.add_argument("--resume", type=Path, metavar="DIR", help="of a study: run folder with finished points")
     command.add_argument("--workers", metavar="N", help="of a study: processes that solve points side by side (1)")
     command.add_argument(
