@@ -41,6 +41,27 @@ def given_text(pump: str, stated: Mapping[str, object]) -> str:
     return "".join(f"# command line: {path} = {value}\n" for path, value in stated.items()) + text
 
 
+def expect_order(pump: str, recording: Path, command: str) -> None:
+    """Raise InputFaults for a recording in the place of PUMP and a pump in that of RECORDING; suggest the command."""
+    from system.pump_file.file import builtin_pumps
+
+    is_pump = str(recording) in builtin_pumps() or "pump" in _tables_of(recording)
+    if is_pump and (Path(pump).is_dir() or "channel" in _tables_of(Path(pump))):
+        found = f"'{pump}', a recording; RECORDING is '{recording}', a pump"
+        near = f"PUMP and RECORDING swapped? swashfilm {command} {quote(str(recording))} {quote(pump)}"
+        raise InputFaults(COMMAND_LINE, [Fault("PUMP", found, "a built-in name or a pump file", near)])
+
+
+def _tables_of(path: Path) -> set[str]:
+    """Return the names of the tables of a TOML file; none for any other path."""
+    from system.inputs.toml_table import read_toml
+
+    try:
+        return {name for name, part in read_toml(path)[1].items() if isinstance(part, dict)}
+    except InputFaults:
+        return set()
+
+
 def expect(path: str | Path, wanted: str, command: str) -> None:
     """Raise InputFaults for a file of the other kind ("pump" or "film"); name the command that reads it."""
     from system.inputs.toml_table import read_toml

@@ -20,6 +20,7 @@ DEEPEST = 20
 _NAME = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')"""
 _LONG_KEY = re.compile(rf"(?<![\w-]){_NAME}(?:[ \t]*+\.[ \t]*+{_NAME}){{{DEEPEST}}}")
 _WIDEST = 2**63
+_INNER_COMMA = re.compile(r"([\w-]+)\s*=\s*([+-]?\d+,\d+)(?=\s*[,}])")
 
 
 def read_toml(path: Path) -> tuple[str, dict[str, Any]]:
@@ -42,9 +43,19 @@ def toml_tables(source: str, text: str) -> dict[str, Any]:
         at = re.search(r"at line (\d+)", str(reason))
         lines = text.splitlines()
         number = int(at[1]) if at else len(lines)
-        value = lines[number - 1].partition("=")[2].partition("#")[0].strip() if lines else ""
-        fault = Fault("file", f"not valid TOML: {reason}", "TOML 1.0", with_point(value))
+        near = _with_points(lines[number - 1]) if lines else ""
+        expected = "TOML 1.0, decimals with a point" if near else "TOML 1.0"
+        fault = Fault("file", f"not valid TOML: {reason}", expected, near)
         raise InputFaults(source, [fault], {"file": number}) from None
+
+
+def _with_points(line: str) -> str:
+    """The probable meaning of a value of a line that has a decimal comma, also within braces; empty without one."""
+    value = line.partition("=")[2].partition("#")[0].strip()
+    if not value.startswith("{"):
+        return with_point(value)
+    found = _INNER_COMMA.search(value)
+    return f"{found[1]} = {with_point(found[2])}" if found else ""
 
 
 def parse_toml(text: str) -> dict[str, Any]:

@@ -55,7 +55,7 @@ def columns_of(rows: Iterable[Sequence[object]], decimal: str) -> TableColumns:
     body, notes = table[start + 1 :], []
     units = {name: found[1] for name in head if (found := _IN_BRACKETS.search(name))}
     if start:
-        notes.append(f"{start} rows above the head left out")
+        notes.append(f"{start} row{'s' * (start > 1)} above the head left out")
     if body and all(_number(cell, decimal) is None for cell in body[0]) and any(str(c).strip() for c in body[0]):
         notes.append(f"the row below the head holds no number and is left out: {', '.join(map(str, body[0]))}")
         units |= {name: str(cell).strip("[]() ") for name, cell in zip(head, body[0], strict=False) if cell}

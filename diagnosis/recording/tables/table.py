@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -9,6 +10,8 @@ from pathlib import Path
 
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.files import LARGEST_CELLS
+
+_CONTROL = re.compile(rb"[\x00-\x08\x0b\x0c\x0e-\x1f]")
 
 
 class TableFault(Exception):
@@ -62,7 +65,18 @@ def foreign(source: TableSource, kind: str) -> Iterator[None]:
         raise
     except (Exception, SystemExit) as reason:  # the libraries have no common class of faults
         words = " ".join(str(reason).split()) or type(reason).__name__
-        raise TableFault(f"'{source.path.name}', unreadable: {words}", kind) from reason
+        near = f"text, to be named {source.path.with_suffix('.csv').name}" if _is_text(source.path) else ""
+        raise TableFault(f"'{source.path.name}', unreadable: {words}", kind, near) from reason
+
+
+def _is_text(path: Path) -> bool:
+    """True for a file that begins with text: lines without control characters."""
+    try:
+        with path.open("rb") as file:
+            head = file.read(4096)
+    except OSError:
+        return False
+    return b"\n" in head and not _CONTROL.search(head)
 
 
 def expect_few(cells: int) -> None:

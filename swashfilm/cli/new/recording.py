@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -24,6 +25,7 @@ _PARTS: Mapping[str, Callable[[TableSource, str], TableSource]] = {
     ".mat": lambda source, name: replace(source, variable=name),
 }
 """A table's named part, by the extension of tables that have several."""
+_ASKS_PART = re.compile(r"\b(sheet|group|variable) = ")
 
 
 def new_recording(
@@ -40,7 +42,7 @@ def new_recording(
     try:
         guess = guessed_recording(source, read_columns(source), None if circuit is None else Circuit(circuit))
     except TableFault as reason:
-        mend = "--part NAME" if part is None and source.path.suffix.lower() in _PARTS else reason.nearest
+        mend = "--part NAME" if part is None and _ASKS_PART.search(reason.expected) else reason.nearest
         faults.append(Fault("TABLE", reason.found, reason.expected, mend))
         return None
     faults += _faults(guess)

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swashfilm.console.command import Command
-from swashfilm.console.inputs import COMMAND_LINE, RECORDING
+from swashfilm.console.inputs import COMMAND_LINE, RECORDING, expect_order
 from swashfilm.console.settings import add_set_option, set_values_of
 from swashfilm.console.terminal import show, show_table
 from system.inputs.faults import Fault, InputFaults, nearest_choice
@@ -33,6 +33,7 @@ def add_calibrate_options(command: argparse.ArgumentParser) -> None:
 def run_calibrate_command(options: argparse.Namespace) -> int:
     """Run `swashfilm calibrate` and return its exit code; raises InputFaults with every fault of the options."""
     models = loss_models(options)
+    expect_order(options.pump, options.recording, "calibrate")
     from diagnosis.calibration import calibrate
     from diagnosis.recording.model import NoteKind
     from diagnosis.study.acceptance import checked_recording

@@ -10,7 +10,7 @@ from shlex import quote
 from typing import TYPE_CHECKING
 
 from swashfilm.console.command import Command
-from swashfilm.console.inputs import COMMAND_LINE, RECORDING, whole
+from swashfilm.console.inputs import COMMAND_LINE, RECORDING, expect_order, whole
 from swashfilm.console.schemas import write_new
 from swashfilm.console.settings import add_set_option, set_values_of
 from swashfilm.console.terminal import show, show_at_once, show_table
@@ -45,6 +45,7 @@ def add_diagnose_options(command: argparse.ArgumentParser) -> None:
 
 def run_diagnose_command(options: argparse.Namespace) -> int:
     """Run `swashfilm diagnose` and return its exit code, 0 for any verdict; a watch ends by Ctrl-C."""
+    expect_order(options.pump, options.recording, "diagnose")
     workers, apply = workers_and_file(options)
     if options.watch:
         _watch(options, workers)

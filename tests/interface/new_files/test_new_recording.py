@@ -208,3 +208,15 @@ def test_a_bare_table_is_pointed_to_the_command(tmp_path, capsys):
     table = _csv(tmp_path / "map.csv", GERMAN)
     assert main(["diagnose", "ref90", str(table)]) == 2
     assert f"swashfilm new recording {table}" in capsys.readouterr().err
+
+
+def test_text_in_the_place_of_a_workbook_is_told(tmp_path):
+    """A renamed CSV has no part to name: its ending is wrong. A damaged workbook is neither."""
+    table = _csv(tmp_path / "map.csv", GERMAN).rename(tmp_path / "map.xlsx")
+    with pytest.raises(sf.InputFaults) as refused:
+        sf.new("recording", table)
+    assert refused.value.faults[0].nearest == "text, to be named map.csv"
+    table.write_bytes(b"PK\x03\x04\n\x00")
+    with pytest.raises(sf.InputFaults) as refused:
+        sf.new("recording", table)
+    assert refused.value.faults[0].nearest == ""

@@ -15,6 +15,7 @@ from swashfilm.output.run_folder import Interrupted, run_folder
 from swashfilm.runs.map.files import map_file
 from swashfilm.runs.reproduce.command import _command, add_reproduce_options
 from system import InputFaults
+from system.inputs.toml_table import toml_tables
 
 OPEN06 = Path(__file__).parents[3] / "examples" / "recordings" / "open-06"
 PLATE = ("--displacement", "45 cm3", "--pistons", "9", "--oil", "ISO VG 46", "--speed", "2600 rpm")
@@ -89,3 +90,36 @@ def test_where_solved_points_are_kept(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="mein Lauf") as reason:
         stopped()
     assert shlex.split(reason.value.__notes__[0].partition("--resume ")[2]) == [str(reason.value)]
+
+
+@pytest.mark.parametrize("command", ["diagnose", "calibrate"])
+def test_pump_and_recording_in_the_other_order(
+    command: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A folder and a recording.toml in the place of PUMP, a pump file and a built-in pump in that of RECORDING."""
+    pump = tmp_path / "Pumpe neu.toml"
+    pump.write_text("[pump]\npistons = 9\n", "utf-8")
+    for recording, known in ((OPEN06, pump), (OPEN06 / "recording.toml", pump), (OPEN06, Path("ref90"))):
+        assert main([command, str(recording), str(known)]) == 2
+        told = capsys.readouterr().err
+        assert "PUMP and RECORDING swapped?" in told
+        assert _words(told, f"swapped? swashfilm {command}") == [str(known), str(recording)]
+    assert main([command, str(tmp_path / "none"), str(pump)]) == 2
+    assert "swapped" not in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("line", "near"),
+    [
+        ('Q_out = { column = "Q", unit = "l/min", sigma = 0,1 }', "sigma = 0.1"),
+        ('Q_out = { sigma = -2,5, unit = "l/min" }', "sigma = -2.5"),
+        ("gain = 0,1", "0.1"),
+        ('Q_out = { column = "Q" ', ""),
+    ],
+)
+def test_a_decimal_comma_in_a_file_is_told(line: str, near: str) -> None:
+    with pytest.raises(InputFaults) as fault:
+        toml_tables("recording.toml", f"[channel]\n{line}\n")
+    (one,) = fault.value.faults
+    assert one.nearest == near
+    assert ("decimals with a point" in one.expected) == bool(near)

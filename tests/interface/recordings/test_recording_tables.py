@@ -103,6 +103,8 @@ def test_loggers_put_lines_above_and_units_below_the_head(tmp_path):
     assert "2 rows above the head" in told
     assert "rpm" in told
     assert "over" in told
+    path.write_text("Bench 4\nspeed,torque\n1500,2.5\n1501,2.6\n", "utf-8")
+    assert "1 row above the head left out" in _read(path).notes
 
 
 def test_sums_and_means_below_the_readings_are_none(tmp_path):
