@@ -253,7 +253,8 @@ def _is_material(row: Row) -> bool:
 
 def _sure_tile(found: Mapping[str, Any]) -> Tile:
     told = found["answer"]
-    alike = any(claim["equivalent"] or claim["other_pairs"] for claim in found["effects"])
+    outside = {EffectId.UNKNOWN_PHYSICS.value}
+    alike = any(set(claim["equivalent"]) - outside or claim["other_pairs"] for claim in found["effects"])
     which = "it is one of these" if len(found["effects"]) == 1 else "these, or the like, are the causes"
     name = f"that {which}" if alike else "that there is a cause" if found["status"] == "suspicion" else "certainty"
     return Tile(told["sure"], name, f"in trials {told['record']}" if told["record"] else "")
