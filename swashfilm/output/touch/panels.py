@@ -73,10 +73,11 @@ def _titled(axes: Any, shown: Sequence[Any], letter: str) -> Any:
 def layout_of(figure: Figure, panels: Sequence[Panel]) -> dict[str, Any]:
     """Return axes, titles and texts of a figure, its height in pixels, and its width that of the page."""
     width, height = figure.get_size_inches()
+    tall = max(LEAST_HEIGHT, PIXELS * height * 10.0 / max(width, 8.0))
     titled = any(panel.axes.get_title(where) for panel in panels for where, _ in TITLES)
-    above = BUTTONS if titled else 0
+    above = BUTTONS if titled or _legend_at_top(figure, panels, 1.0 - BUTTONS / tall) else 0
     layout: dict[str, Any] = {
-        "height": max(LEAST_HEIGHT, PIXELS * height * 10.0 / max(width, 8.0)) + above,
+        "height": tall + above,
         "margin": {"l": 0, "r": 0, "t": above, "b": 0, "autoexpand": False},
         "hovermode": "closest",
         "barmode": "overlay",
@@ -95,6 +96,13 @@ def layout_of(figure: Figure, panels: Sequence[Panel]) -> dict[str, Any]:
         annotations += _texts(panel)
     layout["annotations"] = annotations
     return layout
+
+
+def _legend_at_top(figure: Figure, panels: Sequence[Panel], top: float) -> bool:
+    """True if a legend reaches above the part `top` of the figure's height, where the buttons are."""
+    own = [one for panel in panels if (one := panel.axes.get_legend()) is not None]
+    boxes = (one.get_window_extent().transformed(figure.transFigure.inverted()) for one in [*figure.legends, *own])
+    return any(box.y1 > top for box in boxes)
 
 
 def _key(name: str) -> str:

@@ -387,6 +387,7 @@ def test_titles_of_a_figure_are_below_its_buttons() -> None:
     heights = []
     for title, above in (("", 0), ("B - A / percentage points", 30)):
         figure = curve_figure()
+        figure.axes[0].get_legend().remove()
         figure.axes[0].set_title(title)
         figure.draw_without_rendering()
         found = touchable(figure)
@@ -394,6 +395,24 @@ def test_titles_of_a_figure_are_below_its_buttons() -> None:
         assert found.layout.margin.t == above
         heights.append(found.layout.height)
     assert heights[1] == heights[0] + 30
+
+
+def test_a_legend_at_the_top_of_a_figure_is_below_its_buttons() -> None:
+    """Of a panel, above it, and of the figure; one within a panel below the buttons takes no room."""
+    for place, above in (("panel", 30), ("figure", 30), ("low", 0)):
+        figure = curve_figure()
+        handles, names = figure.axes[0].get_legend_handles_labels()
+        figure.axes[0].get_legend().remove()
+        if place == "panel":
+            figure.axes[0].legend(handles, names, loc="lower right", bbox_to_anchor=(1.0, 1.0))
+        elif place == "figure":
+            figure.legend(handles, names, loc="upper right")
+        else:
+            figure.axes[0].legend(handles, names, loc="lower left")
+        figure.draw_without_rendering()
+        found = touchable(figure)
+        assert found is not None
+        assert found.layout.margin.t == above
 
 
 @in_browser
