@@ -49,7 +49,7 @@ from reynolds import (
 )
 from reynolds.bodies.compliance import LowRank
 from reynolds.fem.sphere import Sphere
-from reynolds.solve.bearing import bearing_load
+from reynolds.solve.bearing import bearing_load, radius_around
 
 LENGTH, WIDTH = 0.3, 0.05  # m
 VISCOSITY = 0.03  # Pa s
@@ -191,7 +191,8 @@ def _values(solution: FilmSolution) -> Mapping[str, float]:
         "friction": float(np.hypot(x, y)), "friction_x": x, "friction_y": y,
         "friction_torque": found.friction_torque_moving, "friction_fixed_x": fixed_x, "friction_fixed_y": fixed_y,
         "friction_fixed_torque": found.friction_torque_fixed, "dissipation": found.dissipation,
-        "bearing_load": bearing_load(solution).size,
+        "bearing_load": bearing_load(solution).size, "shaft_torque": radius_around(solution.problem.space) * x,
+        "shaft_fixed_torque": radius_around(solution.problem.space) * fixed_x,
         **{f"flow.{name}": flow for name, flow in found.flow.items()},
     }  # fmt: skip
 
@@ -206,7 +207,9 @@ class Solved:
 
     def gradients(self) -> dict[str, FilmGradient]:
         """The gradients by name, those of a film around a cylinder among them."""
-        names = output_names(self.problem) | output_names(self.problem, around_cylinder=True)
+        around = output_names(self.problem, around_cylinder=True)
+        torques = {f"shaft_{wall}torque": around[f"friction_{wall}torque"] for wall in ("", "fixed_")}
+        names = around | output_names(self.problem) | torques
         return dict(zip(names, film_gradients(self.solver, self.solution, list(names.values())), strict=True))
 
     def along(self, growth: Array) -> FilmSolution:
