@@ -246,6 +246,29 @@ def test_the_unit_switch_multiplies_pressures_by_ten(tab: Any) -> None:
 
 
 @in_browser
+def test_a_page_with_figures_in_bar_has_all_of_them_in_bar(browser: Any, tmp_path: Path) -> None:
+    """Whichever comes first; the list says the unit of every figure, and MPa makes those in bar MPa, too."""
+    readings = curve_figure()
+    readings.axes[0].set_ylabel("delivery pressure [bar]")
+    with rendered_figures():
+        pictures = {"first": inlined(curve_figure()), "second": inlined(readings)}
+    summary = {"solved": 1, "points": 1, "assumptions": []}
+    content = {"pictures": pictures, "rows": [], "failed": [], "case": NAME, "summary": summary}
+    path = write_page(tmp_path, "study", answer=Answer((), NAME), name=NAME, **content)
+    faults: list[str] = []
+    tab = opened_in(browser, path, faults, viewport={"width": 1200, "height": 2400})
+    titles = "[...document.querySelectorAll('.plot')].map((plot) => plot.layout?.yaxis.title.text.split('[')[1]).join()"
+    for unit, size in (("bar", 1.0), ("MPa", 0.1)):
+        tab.wait_for_function(f"{titles} === '{unit}],{unit}]'")
+        assert tab.locator('[name="pressure unit"]').input_value() == unit
+        read = tab.evaluate("document.querySelectorAll('.plot')[1].data[0].y[45]")
+        assert read == pytest.approx(size * PRESSURE[45], rel=1e-5)
+        tab.locator('[name="pressure unit"]').select_option("MPa")
+    tab.context.close()
+    assert not faults
+
+
+@in_browser
 def test_the_third_axis_of_a_map_changes_its_slice(tab: Any) -> None:
     figure = drawn(tab, "map")
     before = told(figure, "plot.data[0].z.flat()")

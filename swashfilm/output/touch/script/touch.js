@@ -1,7 +1,7 @@
 // Draws the packed figures of a page by plotly.js as they come into view; the static pictures stay where it cannot.
 const CONFIG = { displaylogo: false, responsive: true, modeBarButtonsToRemove: ["lasso2d", "select2d"] };
 const views = [];
-let library = null, inBar = false;
+let library = null, unit = "MPa", chosen = false;
 
 async function loadLibrary() {
   const script = document.createElement("script");
@@ -12,7 +12,7 @@ async function loadLibrary() {
 async function draw({ told, plot, at }) {
   const figure = structuredClone(told.figure);
   applyChoices(figure, told, at);
-  if (inBar) toBar(figure);
+  toPressure(figure, unit);
   toTheme(figure);
   await Plotly.react(plot, figure.data, figure.layout, CONFIG);
   plot.dataset.draws = Number(plot.dataset.draws ?? 0) + 1;
@@ -48,12 +48,22 @@ function hideUsed({ told, at, labels }) {
   told.grid.axes.forEach((axis, k) => { labels[2 + k].hidden = pair.includes(k) || axis.levels.length < 2; });
 }
 
+// Until the reader chooses, a page with a figure in bar, as benches read them, has every figure in bar.
 function offerUnits(text) {
-  if (!text.includes(MPA) || document.querySelector(".units")) return;
-  const select = element("select", { name: "pressure unit" }, new Option("MPa", "MPa"), new Option("bar", "bar"));
-  select.addEventListener("input", () => { inBar = select.value === "bar"; views.forEach(draw); });
+  if (!chosen && unit !== "bar" && text.includes(inTitle("bar"))) showIn("bar");
+  if (!text.includes(inTitle("MPa")) || document.querySelector(".units")) return;
+  const options = Object.keys(PER_MPA).map((one) => new Option(one, one, false, one === unit));
+  const select = element("select", { name: "pressure unit" }, ...options);
+  select.addEventListener("input", () => { chosen = true; showIn(select.value); });
   (document.querySelector("nav") ?? document.querySelector("h1")).after(
     element("p", { className: "units" }, element("label", {}, "Pressure in the figures in ", select)));
+}
+
+function showIn(asked) {
+  unit = asked;
+  const select = document.querySelector(".units select");
+  if (select) select.value = unit;
+  views.forEach(draw);
 }
 
 async function open(holder) {

@@ -1,25 +1,27 @@
-// Pressures of a figure in bar in place of MPa.
-const MPA = "[MPa]", BAR = "[bar]", BAR_PER_MPA = 10;
+// Pressures of a figure in one of two units.
+const PER_MPA = { MPa: 1, bar: 10 };
+const inTitle = (unit) => `[${unit}]`;
 
-const times = (value) => Array.isArray(value) ? value.map(times) : typeof value === "number" ? value * BAR_PER_MPA : value;
-function scale(part, keys) {
-  for (const key of keys) if (part[key] !== undefined) part[key] = times(part[key]);
-}
-function renamed(part) {
-  if (!part?.title?.text?.includes(MPA)) return false;
-  part.title.text = part.title.text.replaceAll(MPA, BAR);
-  return true;
-}
-
-// Every axis and colour bar whose title names MPa is in bar afterwards, with all that is drawn on it.
-function toBar({ data, layout }) {
+// Every axis and colour bar whose title names the other unit is in this one afterwards, with all that is drawn on it.
+function toPressure({ data, layout }, unit) {
+  const other = Object.keys(PER_MPA).find((one) => one !== unit), factor = PER_MPA[unit] / PER_MPA[other];
+  const [from, to] = [inTitle(other), inTitle(unit)];
+  const times = (value) => Array.isArray(value) ? value.map(times) : typeof value === "number" ? value * factor : value;
+  const scale = (part, keys) => {
+    for (const key of keys) if (part[key] !== undefined) part[key] = times(part[key]);
+  };
+  const renamed = (part) => {
+    if (!part?.title?.text?.includes(from)) return false;
+    part.title.text = part.title.text.replaceAll(from, to);
+    return true;
+  };
   const pressures = new Set(), flat = Object.keys(layout).filter((name) => /^[xy]axis/.test(name));
   for (const name of flat) if (renamed(layout[name])) pressures.add(name.replace("axis", ""));
   for (const name of flat) if (pressures.has(layout[name].matches)) pressures.add(name.replace("axis", ""));
   for (const name of flat) {
     const axis = layout[name];
     if (pressures.has(name.replace("axis", ""))) {
-      if (axis.range) axis.range = axis.range.map((end) => axis.type === "log" ? end + 1 : times(end));
+      if (axis.range) axis.range = axis.range.map((end) => axis.type === "log" ? end + Math.log10(factor) : times(end));
       scale(axis, ["tickvals"]);
     }
   }
@@ -40,6 +42,6 @@ function toBar({ data, layout }) {
     for (const part of coloured) {
       scale(part, ["intensity", "text", "color", "cmin", "cmax", "zmin", "zmax", ...(part.type === "mesh3d" ? [] : ["z"])]);
     }
-    if (on.length + coloured.length) trace.hovertemplate = trace.hovertemplate?.replaceAll(MPA, BAR);
+    if (on.length + coloured.length) trace.hovertemplate = trace.hovertemplate?.replaceAll(from, to);
   }
 }
