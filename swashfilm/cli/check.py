@@ -80,7 +80,7 @@ def _checked_film(path: Path, tables: Mapping[str, Any], stated: Mapping[str, ob
     """Return the resolved film case of a file, of a study or table at its first point; raise InputFaults."""
     from swashfilm.case.file import FilmCase
     from swashfilm.case.study import StudyCase, load_film
-    from swashfilm.runs.film.extent import case_warnings
+    from swashfilm.runs.film.checks.extent import case_warnings
     from swashfilm.runs.table.gap_case import load_gap_table
 
     if "table" in tables:

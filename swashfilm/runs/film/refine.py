@@ -15,7 +15,7 @@ from swashfilm.case.gap.instant import GapCase
 from swashfilm.case.tables.time_steps import MOST_STEPS
 from swashfilm.output.headline import headline_numbers, sizes
 from swashfilm.output.refinement import Refinement
-from swashfilm.runs.film.scale import natural_sizes
+from swashfilm.runs.film.checks.scale import natural_sizes
 from swashfilm.runs.film.solve.study import FilmStudy, solve_case
 from swashfilm.runs.film.summary import film_summary
 from system.inputs.faults import Fault, InputFaults

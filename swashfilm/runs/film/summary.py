@@ -12,14 +12,14 @@ from reynolds.solve.export import vertex_fields
 from reynolds.solve.loads import Loads, point_fields
 from swashfilm.case.tables.film import Geometry
 from swashfilm.formats.versions import headed
+from swashfilm.runs.film.checks.scale import natural_sizes
+from swashfilm.runs.film.checks.validity import film_warnings
 from swashfilm.runs.film.physics import physics_summary, temperatures
-from swashfilm.runs.film.scale import natural_sizes
 from swashfilm.runs.film.sensitivity import sensitivity_fields, sensitivity_summary
 from swashfilm.runs.film.solve.gap import gap_summary
 from swashfilm.runs.film.solve.loaded import load_summary
 from swashfilm.runs.film.solve.study import FilmStudy
 from swashfilm.runs.film.solve.torque import friction_torque
-from swashfilm.runs.film.validity import film_warnings
 
 if TYPE_CHECKING:
     import xarray

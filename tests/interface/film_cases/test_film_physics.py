@@ -219,7 +219,7 @@ def test_a_transient_leaves_its_films_and_its_history(tmp_path, monkeypatch):
 
 
 def test_a_long_series_is_thinned_and_told(read, monkeypatch):
-    from swashfilm.runs.film import validity as film_warnings
+    from swashfilm.runs.film.checks import validity as film_warnings
 
     study = solve_case(read(GIVEN + TIME))
     films = 4 * film_warnings.MOST_FIELDS * 8 * len(study.solution.problem.space.vertices)

@@ -3,9 +3,9 @@
 import pytest
 
 from swashfilm.case.file import load_case
+from swashfilm.runs.film.checks.validity import beyond_oil
 from swashfilm.runs.film.solve.study import solve_case
 from swashfilm.runs.film.summary import film_summary
-from swashfilm.runs.film.validity import beyond_oil
 
 PRESSED = """
 format = 1

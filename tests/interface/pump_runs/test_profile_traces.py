@@ -10,8 +10,8 @@ import pytest
 from bench_pump import BENCH
 
 from swashfilm.case.file import load_case
+from swashfilm.runs.film.checks.validity import film_warnings
 from swashfilm.runs.film.solve.study import solve_case
-from swashfilm.runs.film.validity import film_warnings
 from system import InputFaults, check_pump, floating_parts, load_pump, resolved_toml
 from system.pump.chamber_kinds import kinds
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from swashfilm.runs.film.checks.validity import thinned_by
 from swashfilm.runs.film.solve.study import FilmStudy
 from swashfilm.runs.film.solve.transient import Moment
 from swashfilm.runs.film.summary import film_dataset
-from swashfilm.runs.film.validity import thinned_by
 
 if TYPE_CHECKING:
     import xarray

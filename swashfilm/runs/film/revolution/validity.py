@@ -10,8 +10,8 @@ from gaps.films.slipper import retainer_force
 from gaps.revolution.march import GapRevolution
 from swashfilm.case.gap.revolution import GapOverTurn
 from swashfilm.output.data.gap_names import LARGEST_RIGID_PRESSURE
+from swashfilm.runs.film.checks.validity import LARGEST_OIL_PRESSURE, beyond_oil
 from swashfilm.runs.film.solve.profiles import unresolved_profiles
-from swashfilm.runs.film.validity import LARGEST_OIL_PRESSURE, beyond_oil
 from system.description.gap import Gap
 from system.films.drives import slipper_retainer
 from system.films.parts import FloatingParts

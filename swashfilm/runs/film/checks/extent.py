@@ -10,7 +10,7 @@ import numpy as np
 from reynolds.fem.space import FilmSpace
 from reynolds.numerics.arrays import Array
 from swashfilm.case.tables.film import extent_of, mean_over
-from swashfilm.runs.film.seam import seam_warnings
+from swashfilm.runs.film.checks.seam import seam_warnings
 
 if TYPE_CHECKING:
     from swashfilm.case.file import FilmCase

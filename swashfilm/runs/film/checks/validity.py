@@ -13,9 +13,9 @@ from reynolds.laws.roughness import beyond_range
 from reynolds.problem import Cavitation, FilmSolution, Pocket
 from reynolds.solve.loads import couette_through, dissipated
 from reynolds.solve.rubbing import rubbing
-from swashfilm.runs.film.extent import Warned, extent_warnings
-from swashfilm.runs.film.scale import natural_sizes
-from swashfilm.runs.film.seam import seam_warnings
+from swashfilm.runs.film.checks.extent import Warned, extent_warnings
+from swashfilm.runs.film.checks.scale import natural_sizes
+from swashfilm.runs.film.checks.seam import seam_warnings
 from swashfilm.runs.film.solve.gap import gap_warnings
 from system.inputs.shown import pressure_text
 
