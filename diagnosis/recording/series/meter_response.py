@@ -84,7 +84,8 @@ def meter_response(
 
     lag = best_lag(missed, _tried(len(values)))
     held = np.zeros(len(known)) if rate is None else -rate[usable]
-    storage = _storage(*(block_means(one[follows]) for one in (known, at_once, held)), missed(lag))
+    values_of, columns_of, stored = (block_means(one[follows]) for one in (known, at_once, held))
+    storage = _storage(values_of, columns_of, stored, missed(lag))
     lag = 0.0 if storage > 0.0 else _refined(lag, lambda samples: columns(samples)[follows], known[follows])
     followed, known = columns(lag), known - storage * held
     band = dead_band(known, followed) if may_be_dead else np.nan

@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from datetime import datetime
 from functools import cache
+from itertools import takewhile
 
 import numpy as np
 
@@ -24,7 +25,6 @@ SUMMARIES = frozenset({
 })  # fmt: skip
 """Names of summary rows below a table, which are no readings, in small letters."""
 _POINT = re.compile(r"\s*[+-]?(\d+\.?\d*|\.\d+|\d{1,3}(,\d{3})+\.\d*)(e[+-]?\d+)?\s*", re.IGNORECASE)
-_IN_BRACKETS = re.compile(r"[\[(]([^\])]+)[\])]\s*$")
 _COMMA = re.compile(r"\s*[+-]?(\d+,?\d*|,\d+|\d{1,3}(\.\d{3})+,\d*)(e[+-]?\d+)?\s*", re.IGNORECASE)
 _NUMBER = {".": _POINT, ",": _COMMA}
 _PARTED = {".": re.compile(r"\s*[+-]?[1-9]\d{0,2}(,\d{3})+\s*"), ",": re.compile(r"\s*[+-]?[1-9]\d{0,2}(\.\d{3})+\s*")}
@@ -36,10 +36,11 @@ _OTHER = {".": ",", ",": "."}
 def columns_of(rows: Iterable[Sequence[object]], decimal: str) -> TableColumns:
     """Return the columns of rows of cells: text, numbers, times or None.
 
-    The head is the first row of the most frequent length that is text throughout. Rows above it are left out, and
-    a row below it without any number (units, as loggers write them), and rows at the end that begin with the name
-    of a summary (`SUMMARIES`), where no row above does. A cell that is no number is nan; a column of dates
-    or times of day becomes seconds from its first. Raises TableFault for no head or a name that occurs in it twice.
+    The head is the first row of the most frequent length that is text throughout; of several such rows one below the
+    other that with the most names, since titles of groups and units are fewer. Rows above it are left out, and a row
+    below it without any number (units, as loggers write them), and rows at the end that begin with the name of a
+    summary (`SUMMARIES`), where no row above does. A cell that is no number is nan; a column of dates or times of day
+    becomes seconds from its first. Raises TableFault for no head or a name that occurs in it twice.
     """
     table = [[_bare(cell) for cell in row] for row in rows]
     table = [row for row in table if any(cell != "" for cell in row)]
@@ -49,11 +50,13 @@ def columns_of(rows: Iterable[Sequence[object]], decimal: str) -> TableColumns:
     start = next((k for k, row in enumerate(table) if len(row) == width and _is_head(row, decimal)), None)
     if start is None:
         raise TableFault(f"no head in rows of {width} cells", "a row of column names above the numbers")
+    titles = list(takewhile(lambda row: len(row) == width and _is_head(row, decimal), table[start:]))
+    start += max(range(len(titles)), key=lambda k: len({cell for cell in titles[k] if cell}))
     head = [str(cell).strip() for cell in table[start]]
     if twice := [name for name, count in Counter(head).items() if count > 1 and name]:
         raise TableFault(f"the column {twice[0]!r} twice", "every column name once")
     body, notes = table[start + 1 :], []
-    units = {name: found[1] for name in head if (found := _IN_BRACKETS.search(name))}
+    units: dict[str, str] = {}
     if start:
         notes.append(f"{start} row{'s' * (start > 1)} above the head left out")
     if body and all(_number(cell, decimal) is None for cell in body[0]) and any(str(c).strip() for c in body[0]):

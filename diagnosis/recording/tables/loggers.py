@@ -52,7 +52,8 @@ def _tdms_columns(file: Any, source: TableSource) -> TableColumns:
     based = [c for c in channels if c.name in values and "wf_increment" in c.properties]
     if based and TIME not in values:
         values[TIME] = np.asarray(based[0].time_track(), dtype=float)
-    return TableColumns(values, (f"left out, since of another length: {', '.join(short)}",) if short else ())
+    units = {c.name: str(c.properties["unit_string"]) for c in channels if c.properties.get("unit_string")}
+    return TableColumns(values, (f"left out, since of another length: {', '.join(short)}",) if short else (), units)
 
 
 def _scaled(channel: Any) -> None:
@@ -81,11 +82,12 @@ def read_mdf(source: TableSource) -> TableColumns:
         groups = [(group.channel_group.cycles_nr, len(group.channels)) for group in file.groups]
         expect_few(sum(rows for rows, _ in groups) * sum(channels for _, channels in groups))
         _expect_arithmetic(channel for group in file.groups for channel in group.channels)
+        units = {channel.name: str(channel.unit) for group in file.groups for channel in group.channels if channel.unit}
         frame = file.to_dataframe(time_from_zero=False, use_interpolation=True)
     values = {str(name): frame[name].to_numpy(dtype=float) for name in frame if frame[name].dtype.kind in "fiu"}
     left_out = [str(name) for name in frame if str(name) not in values]
     values.setdefault(TIME, frame.index.to_numpy(dtype=float))
-    return TableColumns(values, (f"left out, since not numbers: {', '.join(left_out)}",) if left_out else ())
+    return TableColumns(values, (f"left out, since not numbers: {', '.join(left_out)}",) if left_out else (), units)
 
 
 def _expect_arithmetic(channels: Iterable[Any]) -> None:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 from diagnosis.recording.tables.loggers import read_mdf, read_tdms
 from diagnosis.recording.tables.matlab import read_matlab
-from diagnosis.recording.tables.table import TableColumns, TableFault, TableSource
+from diagnosis.recording.tables.table import TableColumns, TableFault, TableSource, units_of
 from diagnosis.recording.tables.text import read_text
 from diagnosis.recording.tables.workbooks import read_parquet, read_workbook
 from reynolds.numerics.files import UnfitFile, expect_regular
@@ -42,4 +43,4 @@ def read_columns(source: TableSource) -> TableColumns:
     columns = reader(source)
     if columns.rows == 0:
         raise TableFault(f"no row of numbers in '{path.name}'", "a head with column names and rows of numbers")
-    return columns
+    return replace(columns, units={**units_of(columns.values), **columns.units})

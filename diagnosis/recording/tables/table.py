@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -11,6 +11,7 @@ from pathlib import Path
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.files import LARGEST_CELLS
 
+_IN_BRACKETS = re.compile(r"[\[(]([^\])]+)[\])]\s*$")
 _CONTROL = re.compile(rb"[\x00-\x08\x0b\x0c\x0e-\x1f]")
 
 
@@ -41,8 +42,8 @@ class TableSource:
 class TableColumns:
     """Columns by name, all of one length, nan where a cell holds no number; notes: on the form found, as text.
 
-    units: by name of a column, from the row below the head, or in brackets in the head; words: the cells of columns
-    that hold no number.
+    units: by name of a column, from the row below the head, a property of the channel, or in brackets in the name;
+    words: the cells of columns that hold no number.
     """
 
     values: Mapping[str, Array]
@@ -54,6 +55,11 @@ class TableColumns:
     def rows(self) -> int:
         """Number of rows."""
         return next((len(column) for column in self.values.values()), 0)
+
+
+def units_of(names: Iterable[str]) -> dict[str, str]:
+    """Units in brackets at the end of column names, by name."""
+    return {name: found[1] for name in names if (found := _IN_BRACKETS.search(name))}
 
 
 @contextmanager

@@ -69,6 +69,20 @@ def test_a_bare_table_is_read_as_its_recording(tmp_path, write, head):
     checked_recording(table, load_known_pump("ref90"))
 
 
+def test_a_series_whose_clock_stumbles_is_a_series(tmp_path):
+    """Stamps written twice and a clock that is set back once: the rows are samples over time all the same."""
+    time = np.concatenate([np.arange(200.0), 195.0 + np.arange(200.0)])
+    time[50] = time[49]
+    level = 100.0 + 50.0 * np.sin(time / 40.0)
+    rows = [f"{t:g};1500;{p:.2f};50;{40 + 0.01 * p:.3f}" for t, p in zip(time, level, strict=True)]
+    (tmp_path / "log.csv").write_text(
+        "time [s];speed [rpm];p_out [bar];T_case [degC];Q_out [L/min]\n" + "\n".join(rows)
+    )
+    text = sf.new("recording", tmp_path / "log.csv").read_text("utf-8")
+    assert "[series]" in text
+    assert 'time = { column = "time [s]", unit = "s" }' in text
+
+
 def test_heads_without_units_are_read_by_size_and_every_guess_is_marked(tmp_path):
     table = _csv(tmp_path / "map.csv", BARE)
     text = sf.new("recording", table).read_text("utf-8")

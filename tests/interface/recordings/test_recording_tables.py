@@ -107,6 +107,15 @@ def test_loggers_put_lines_above_and_units_below_the_head(tmp_path):
     assert "1 row above the head left out" in _read(path).notes
 
 
+def test_titles_of_groups_above_the_head_are_no_head(tmp_path):
+    path = tmp_path / "report.csv"
+    path.write_text("Bench 4,,,\nDrive,,Flows,\nspeed,torque,Q1,Q2\nrpm,N m,L/min,L/min\n1500,2.5,1,2\n1501,2.6,3,4\n")
+    columns = _read(path)
+    assert list(columns.values) == ["speed", "torque", "Q1", "Q2"]
+    assert columns.units == {"speed": "rpm", "torque": "N m", "Q1": "L/min", "Q2": "L/min"}
+    assert np.array_equal(columns.values["Q2"], [2.0, 4.0])
+
+
 def test_sums_and_means_below_the_readings_are_none(tmp_path):
     path = tmp_path / "run.csv"
     path.write_text("point;speed\nP1;1500\nP2;1501\n\nMean:;1500.5\nStd Dev;0.7\n", "utf-8")
@@ -287,10 +296,12 @@ def test_parquet(tmp_path):
     from pyarrow import parquet
 
     when = np.array([0, 1, 2, 3, 4], dtype="datetime64[s]")
-    table = pyarrow.table({"speed": SPEED, "torque": TORQUE, "name": list("abcde"), "when": when})
+    heads = {"speed": SPEED, "torque": TORQUE, "torque [lbf ft]": TORQUE}
+    table = pyarrow.table({**heads, "name": list("abcde"), "when": when})
     parquet.write_table(table, tmp_path / "a.parquet")
     columns = _read(tmp_path / "a.parquet")
     assert _are_same(columns)
+    assert columns.units == {"torque [lbf ft]": "lbf ft"}
     assert np.array_equal(columns.values["when"], np.arange(5.0))
     assert "'name' holds no numbers" in " ".join(columns.notes)
 
@@ -303,9 +314,10 @@ def _tdms(path, properties):
 
 
 def test_tdms(tmp_path):
-    _tdms(tmp_path / "a.tdms", {"wf_start_offset": 0.0, "wf_samples": 5})
+    _tdms(tmp_path / "a.tdms", {"wf_start_offset": 0.0, "wf_samples": 5, "unit_string": "1/min"})
     columns = _read(tmp_path / "a.tdms")
     assert _are_same(columns)
+    assert columns.units == {"speed": "1/min"}
     assert np.array_equal(columns.values["time"], 0.5 * np.arange(5))
 
 
@@ -319,10 +331,12 @@ def test_tdms_scale_that_would_leave_raw_counts_is_refused(tmp_path, caplog):
 def test_mdf(tmp_path):
     asammdf = pytest.importorskip("asammdf")
     time = 0.1 * np.arange(5)
-    signals = [asammdf.Signal(samples=x, timestamps=time, name=n) for n, x in (("speed", SPEED), ("torque", TORQUE))]
+    known = (("speed", SPEED, "rpm"), ("torque", TORQUE, ""))
+    signals = [asammdf.Signal(samples=x, timestamps=time, name=name, unit=unit) for name, x, unit in known]
     with asammdf.MDF(version="4.10") as file:
         file.append(signals)
         file.save(tmp_path / "a.mf4")
     columns = _read(tmp_path / "a.mf4")
     assert _are_same(columns)
+    assert columns.units["speed"] == "rpm"
     assert np.allclose(columns.values["time"], time)
