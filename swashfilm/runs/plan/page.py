@@ -11,12 +11,13 @@ from swashfilm.output.answer import Answer, Tile
 from swashfilm.output.page import inlined, read_summary, write_page
 from swashfilm.runs.plan import rows
 from swashfilm.runs.plan.limits import AXES
-from swashfilm.runs.plan.plots import apart_plot, points_plot
+from swashfilm.runs.plan.plots import FEW, apart_plot, points_plot
 
 CAPTION = (
     "How far apart the campaign with its added points tells every two suspects. Blue: told apart. Red: still open. "
-    "Grey: told by no point"
+    "Grey: told by no point{numbers}"
 )
+NUMBERED = ". The columns have the numbers of the rows"
 POINTS = (
     "Points of the campaign; a larger mark is read more often; marks of warmer oil lie a little to the right of colder"
 )
@@ -29,6 +30,7 @@ def write_plan_page(folder: Path) -> Path:
         folder,
         "plan",
         answer=plan_answer(summary),
+        whole_width=len(summary["suspects"]) > FEW,
         summary=summary,
         points=list(rows.point_rows(summary)),
         point_head=rows.point_head(),
@@ -70,7 +72,8 @@ def plan_answer(summary: Mapping[str, Any]) -> Answer:
         tiles.append(Tile(f"{equipped['told']} of {pairs}", label, rows.equipment(summary)))
     tiles.append(Tile(str(summary["open"]), "pairs still open", "points could tell them"))
     tiles.append(Tile(str(summary["never"]), "pairs never told apart", "by any point of this bench"))
-    return Answer(tuple(tiles), " ".join(_sentences(summary)), inlined(apart_plot(summary)), CAPTION)
+    caption = CAPTION.format(numbers=NUMBERED if len(summary["suspects"]) > FEW else "")
+    return Answer(tuple(tiles), " ".join(_sentences(summary)), inlined(apart_plot(summary)), caption)
 
 
 def _sentences(summary: Mapping[str, Any]) -> Iterator[str]:

@@ -18,42 +18,48 @@ if TYPE_CHECKING:
 PLANNED, ADDED, NEVER = "#8fb9c5", "#b5523b", "#d4d4d4"
 COLOURS = ["#f3c9b5", "#f8e6dc", "#b9d3da", "#6fa3b2", "#2f6678"]
 """Of distances: below half of the required one, below it, above, well above, far above."""
-LETTER, LEGEND = 0.0078, 1.9
-"""Width of a letter in inches by its size in points, and of the legend in inches."""
+LETTERS, LETTER, LEGEND, NUMBERS = 9, 0.0082, 1.9, 1.1
+"""Size of letters in points; width in inches of one by its size, and of the legend; height of numbers and legend."""
 FEW = 12
 """Number of suspects up to which cells have numbers."""
 
 
 def apart_plot(summary: Mapping[str, Any]) -> Figure:
-    """Draw the distance of every two suspects: pale not separated, dark separated, grey never."""
+    """Draw the distance of every two suspects: pale not separated, dark separated, grey never.
+
+    Of more than `FEW` the columns have the numbers of the rows in place of names, and the legend is below.
+    """
     from matplotlib.colors import BoundaryNorm, ListedColormap
 
     count, wanted = len(summary["suspects"]), summary["apart_sigma"]
     distances = np.array(summary["distances"])
     grey = hopeless(summary) | np.eye(count, dtype=bool)
     shown = np.ma.masked_where(grey, distances)
-    words = [one["words"] for one in summary["suspects"]]
-    letters = 7 if count > FEW else 9
-    size = max(0.45 * min(count, FEW), 0.19 * count) + 0.3 + LETTER * letters * max(map(len, words))
-    figure = figure_of(size + LEGEND, size)
+    many = count > FEW
+    words = [f"{one['words']}  {at}" if many else one["words"] for at, one in enumerate(summary["suspects"], 1)]
+    cells, named = max(0.45 * min(count, FEW), 0.19 * count), 0.3 + LETTER * LETTERS * max(map(len, words))
+    wide, tall = (cells + named, cells + NUMBERS) if many else (cells + named + LEGEND, cells + named)
+    figure = figure_of(wide, tall)
     axes = figure.subplots()
     edges = [0.0, 0.5 * wanted, wanted, 1.5 * wanted, 2.5 * wanted, 1e9]
     colours = ListedColormap(COLOURS).with_extremes(bad=NEVER)
     axes.imshow(shown, cmap=colours, norm=BoundaryNorm(edges, colours.N), interpolation="nearest")
-    axes.set_xticks(range(count), words, rotation=90, fontsize=letters)
-    axes.set_yticks(range(count), words, fontsize=letters)
+    below = [str(at + 1) for at in range(count)] if many else words
+    axes.set_xticks(range(count), below, rotation=90, fontsize=LETTERS)
+    axes.set_yticks(range(count), words, fontsize=LETTERS)
     axes.set_facecolor(NEVER)
-    if count <= FEW:
+    axes.set_anchor("E" if many else "C")
+    if not many:
         for one, other in zip(*np.nonzero(~np.eye(count, dtype=bool)), strict=True):
             dark = distances[one, other] > edges[3] and not grey[one, other]
             ink = "white" if dark else "black"
             text = f"{distances[one, other]:.1f}"
             axes.text(other, one, text, ha="center", va="center", fontsize=8, color=ink)
-    _legend(axes, colours, wanted)
+    _legend(axes, colours, wanted, below=many)
     return figure
 
 
-def _legend(axes: Axes, colours: Any, wanted: float) -> None:
+def _legend(axes: Axes, colours: Any, wanted: float, below: bool) -> None:
     from matplotlib.patches import Patch
 
     half, more, far = 0.5 * wanted, 1.5 * wanted, 2.5 * wanted
@@ -63,7 +69,10 @@ def _legend(axes: Axes, colours: Any, wanted: float) -> None:
     )  # fmt: skip
     handles = [Patch(color=colours(at), label=text) for at, text in enumerate(words)]
     handles.append(Patch(color=NEVER, label="never, by points"))
-    axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(1.01, 1.0), fontsize=8, frameon=False)
+    place: dict[str, Any] = {"loc": "upper left", "bbox_to_anchor": (1.01, 1.0), "fontsize": 8}
+    if below:
+        place = {"loc": "upper right", "bbox_to_anchor": (1.0, -0.06), "ncols": 3, "fontsize": LETTERS}
+    axes.legend(handles=handles, frameon=False, **place)
 
 
 def points_plot(summary: Mapping[str, Any]) -> Figure:

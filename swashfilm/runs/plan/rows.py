@@ -22,6 +22,8 @@ SUSPECT_HEAD = ("suspect", "name for --suspects", "size", "costs", "stands out b
 SENSOR_HEAD = ("meter", "one sigma of a reading", "calibration: gain", "zero", "")
 NEVER_HEAD = ("never told apart", "why", "what would tell")
 OPEN_HEAD = ("still open", "apart by", "")
+HARDLY = 0.1
+"""Of the distance needed: a suspect that stands out by less would show at no size that is likely."""
 NAMED = 4
 """Pairs that a cell names."""
 REASONS = {
@@ -118,14 +120,34 @@ def never_rows(summary: Summary) -> Iterator[tuple[str, ...]]:
         if pairs:
             helped = Counter(name for one in pairs for name in one["further"])
             meters = [name for name, count in helped.most_common(2) if count >= len(pairs) / 2]
-            why = f"hardly moves any reading of this bench, by {own['seen_sigma']:.1f} sigma with these points"
-            yield f"{own['words']} from anything", why, _meters(summary, meters)
+            yield f"{own['words']} from anything", _too_small(summary, own), _would_tell(summary, own, meters)
     for one in summary["never_apart"]:
         if not one["unseen"]:
             weaker = min((summary["suspects"][at] for at in one["pair"]), key=lambda own: own["seen_sigma"])
             channel = channel_of(weaker["shows_in"])
             why = REASONS[one["reason"]].format(channel=channel, weaker=weaker["words"], seen=weaker["seen_sigma"])
             yield pair_words(summary, one["pair"]), why, _meters(summary, one["further"])
+
+
+def _too_small(summary: Summary, own: Summary) -> str:
+    """Return the reason why a suspect of its size is not seen: it hardly moves a reading, or less than is needed."""
+    seen, wanted = own["seen_sigma"], summary["apart_sigma"]
+    if seen < HARDLY * wanted:
+        return f"hardly moves any reading of this bench, by {seen:.1f} sigma with these points"
+    cost = f"{100.0 * own['costs_efficiency']:.2g}"
+    points = f"{cost} point{'' if cost == '1' else 's'}"
+    return f"too small at {points}: it stands out by {seen:.1f} of the {wanted:.1f} sigma needed, with these points"
+
+
+def _would_tell(summary: Summary, own: Summary, meters: Sequence[str]) -> str:
+    """Return what shows a suspect: meters, and a larger size where one is likely; distances are proportional to it."""
+    seen, cost = own["seen_sigma"], summary["cost_of_efficiency"]
+    if own["capped"] or seen < HARDLY * summary["apart_sigma"]:
+        return _meters(summary, meters)
+    times = summary["apart_sigma"] / seen
+    asked = f", --cost {100.0 * cost * times:.2g}%" if own["costs_efficiency"] >= cost * (1.0 - 1e-9) else ""
+    larger = f"a size {times:.2g} times as large{asked}"
+    return f"{_meters(summary, meters)}, or {larger}" if meters else larger
 
 
 def _meters(summary: Summary, names: Sequence[str]) -> str:

@@ -11,6 +11,8 @@ import pytest
 
 import swashfilm as sf
 from swashfilm.__main__ import main
+from swashfilm.runs.plan.plots import apart_plot
+from swashfilm.runs.plan.rows import never_rows
 
 SUSPECTS = "churning,seal_drag,torque_offset,port_short_circuit"
 WORDS = ["--suspects", SUSPECTS, "--add", "4"]
@@ -109,6 +111,7 @@ def test_page_begins_with_its_answer_and_can_be_written_again(planned: Path) -> 
     plain = text.replace("\u00a0", " ")
     assert "of 6" in plain
     assert "The planned test, 18 readings, tells" in plain
+    assert '<table class="dense within">\n<tr><th>order' in text  # in the column of the page: its last cells are words
     page.unlink()
     assert main(["report", str(planned)]) == 0
     assert page.read_text() == text
@@ -180,3 +183,37 @@ def test_faults_of_a_campaign_file(tmp_path: Path, capsys: pytest.CaptureFixture
         assert text in told
     path.write_text("speed [rpm],pressure [bar]\n")
     assert "one point at least" in _faults(["ref90", "--campaign", str(path)], capsys)
+
+
+def test_a_suspect_too_small_to_show_is_told_by_its_size() -> None:
+    """What would tell: the size from which it stands out, since distances grow with it; the meters beside it."""
+    plain = {"words": "seal drag", "costs_efficiency": 0.01, "capped": False, "seen_sigma": 1.5}
+    drain = plain | {"words": "thicker film", "costs_efficiency": 0.004}
+    capped, hidden = plain | {"words": "lift", "capped": True}, plain | {"words": "nothing", "seen_sigma": 0.003}
+    pairs = [(0, 1, ["Q_in"]), (1, 2, []), (2, 3, [])]
+    never = [{"pair": [a, b], "unseen": [a, b], "reason": "unseen", "further": more} for a, b, more in pairs]
+    told = {"suspects": [plain, drain, capped, hidden], "never_apart": never, "apart_sigma": 3.0}
+    summary = told | {"cost_of_efficiency": 0.01, "further": [{"name": "Q_in", "words": "a meter"}]}
+    rows = {one: (why, what) for one, why, what in never_rows(summary)}
+    assert rows["seal drag from anything"] == (
+        "too small at 1 point: it stands out by 1.5 of the 3.0 sigma needed, with these points",
+        "a meter, or a size 2 times as large, --cost 2%",
+    )
+    assert rows["thicker film from anything"][1] == "a meter, or a size 2 times as large"
+    assert rows["lift from anything"][1] == "no meter that is known here"
+    assert rows["nothing from anything"] == (
+        "hardly moves any reading of this bench, by 0.0 sigma with these points", "no meter that is known here",
+    )  # fmt: skip
+
+
+def test_names_of_many_suspects_stand_once() -> None:
+    """Beside the rows, with the numbers of the columns: twice they leave no room for letters that can be read."""
+    names = [f"another suspect of some length {at}" for at in range(30)]
+    distances = np.full((30, 30), 4.0).tolist()
+    summary = {"suspects": [{"words": name} for name in names], "distances": distances, "apart_sigma": 3.4}
+    figure = apart_plot(summary | {"never_apart": []})
+    (axes,) = figure.axes
+    assert [text.get_text() for text in axes.get_xticklabels()] == [str(at) for at in range(1, 31)]
+    assert [text.get_text() for text in axes.get_yticklabels()] == [f"{name}  {at}" for at, name in enumerate(names, 1)]
+    letters = axes.get_yticklabels()[0].get_fontsize() / 72.0
+    assert letters / figure.get_figwidth() > 9.0 / 1056.0  # pixels, of a figure as wide as the page
