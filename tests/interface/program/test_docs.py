@@ -261,7 +261,7 @@ def test_warnings_are_explained(films):
     assert {warning["name"] for warning in gap_warnings(stands)} <= explained
     sources = "".join(
         (ROOT / name).read_text("utf-8")
-        for name in ("swashfilm/runs/film/validity.py", "swashfilm/runs/film/solve/gap.py")
+        for name in ("swashfilm/runs/film/checks/validity.py", "swashfilm/runs/film/solve/gap.py")
     )
     assert set(re.findall(r'"name": "(\w+)"', sources)) <= explained
     checks = "".join(
