@@ -92,6 +92,7 @@ def test_from_files_to_files(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     page = (out / "report.html").read_text("utf-8")
     assert page.index("The recording determines") < page.index("<nav>") < page.index("chi-square")
     assert "e-05 m" not in page
+    assert "zero good to 0.5\u00a0rpm" in page
     found = {row["name"]: row for row in _table(out, "parameters.csv")}
     slipper = found["friction.slipper_swash_plate"]
     assert float(slipper["prior_high"]) == pytest.approx(PUMP.friction.slipper_swash_plate * np.exp(0.66), rel=1e-4)

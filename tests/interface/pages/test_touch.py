@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib.util
 import shutil
 from collections.abc import Callable, Iterator
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,7 @@ import meshio
 import numpy as np
 import pytest
 from blank_pictures import rendered_figures
+from PIL import Image
 
 import swashfilm as sf
 from swashfilm.output.answer import Answer, Tile
@@ -266,6 +268,21 @@ def test_a_page_with_figures_in_bar_has_all_of_them_in_bar(browser: Any, tmp_pat
         tab.locator('[name="pressure unit"]').select_option("MPa")
     tab.context.close()
     assert not faults
+
+
+@in_browser
+def test_a_table_wider_than_its_screen_shows_that_it_goes_on(browser: Any, tmp_path: Path) -> None:
+    """The right edge of a table that is cut is darker than the page; that of a whole one is not."""
+    row = [f"number_{at}_of_a_table" for at in range(5)]
+    content = {"name": NAME, "case": NAME, "summary": {"solved": 1, "points": 1, "assumptions": []}, "failed": []}
+    path = write_page(tmp_path, "study", answer=Answer((), NAME), pictures={}, rows=[row] * 30, **content)
+    for width, cut in ((400, True), (1400, False)):
+        tab = opened_in(browser, path, [], viewport={"width": width, "height": 900})
+        table = tab.locator(".wide").first
+        assert table.evaluate("(own) => own.scrollWidth > own.clientWidth") is cut
+        picture = np.asarray(Image.open(BytesIO(table.screenshot())).convert("L"))
+        assert bool(np.median(picture[:, -2]) < 230) is cut
+        tab.context.close()
 
 
 @in_browser
