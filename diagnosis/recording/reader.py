@@ -16,11 +16,11 @@ from diagnosis.recording.breaks.refused import refuse_breaks
 from diagnosis.recording.breaks.sampled_rows import rows_are_samples
 from diagnosis.recording.channel_form import ChannelForm
 from diagnosis.recording.channel_noise import recorded_channel
-from diagnosis.recording.columns import ColumnReader, rising
 from diagnosis.recording.form import RecordingForm, SeriesSection, SteadySection, read_form
 from diagnosis.recording.model import RecordedChannel, Recording, SteadyTable
 from diagnosis.recording.replicates import repeatability, set_points
 from diagnosis.recording.series.points import SeriesPoints, series_points
+from diagnosis.recording.tables.columns import ColumnReader, rising
 from diagnosis.recording.tables.table import TableColumns, TableFault
 from diagnosis.recording.traces import ReadTraces, read_traces
 from reynolds.numerics.arrays import Array

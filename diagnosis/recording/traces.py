@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from diagnosis.recording.channel_noise import recorded_channel
-from diagnosis.recording.columns import ColumnReader
 from diagnosis.recording.form import TraceForm
 from diagnosis.recording.model import RecordedChannel, TraceBlock
+from diagnosis.recording.tables.columns import ColumnReader
 from diagnosis.recording.tables.table import TableFault
 from reynolds.numerics.arrays import Array
 from system.inputs.units import TURN

@@ -7,10 +7,10 @@ from scipy.sparse import coo_array, csr_array
 
 from reynolds.bodies.compliance import ElasticWalls, LowRank, WallMatrix, full
 from reynolds.bodies.elasticity import Elastic
+from reynolds.bodies.memory import physical_memory
 from reynolds.errors import FilmInputError
 from reynolds.fem.space import FilmSpace
 from reynolds.numerics.arrays import Array
-from reynolds.numerics.memory import physical_memory
 
 DENSE_COPIES = 4  # of the influences at a time, as measured
 BLOCK = 128  # points at a time: bounds the memory beside the result

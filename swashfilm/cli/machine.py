@@ -12,7 +12,7 @@ from importlib.metadata import PackageNotFoundError, requires, version
 from math import isinf
 from pathlib import Path
 
-from reynolds.numerics.memory import physical_memory
+from reynolds.bodies.memory import physical_memory
 from swashfilm.output.scenes.picture3d import REMEDY, Frame, draw
 from swashfilm.runs.export.fmu.compiler import REMEDY as COMPILER, targets
 from system.work.processes import cores

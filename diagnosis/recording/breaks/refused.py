@@ -9,8 +9,8 @@ import numpy as np
 from diagnosis.recording.breaks.two_pumps import pump_changes, pumps_named
 from diagnosis.recording.breaks.unit_changes import unit_changes
 from diagnosis.recording.channel_form import ChannelForm
-from diagnosis.recording.columns import ColumnReader
 from diagnosis.recording.series.standstill import at_rest
+from diagnosis.recording.tables.columns import ColumnReader
 from diagnosis.recording.tables.table import TableColumns
 from reynolds.numerics.arrays import Array
 

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from reynolds.bodies.foundation import half_space_memory, too_large
+from reynolds.bodies.memory import physical_memory
 from reynolds.numerics.convergence import convergence
-from reynolds.numerics.memory import physical_memory
 from swashfilm.case.fields.mesh import MOST_CELLS
 from swashfilm.case.file import FilmCase
 from swashfilm.case.gap.instant import GapCase

@@ -8,7 +8,7 @@ from diagnosis.recording.breaks.sampled_rows import rows_are_samples
 from diagnosis.recording.breaks.two_pumps import pump_changes, pumps_named
 from diagnosis.recording.breaks.unit_changes import unit_changes
 from diagnosis.recording.channel_form import PressureReference, channel_form, channel_section
-from diagnosis.recording.columns import ColumnReader
+from diagnosis.recording.tables.columns import ColumnReader
 from diagnosis.recording.tables.table import TableColumns
 from system import ChannelName
 from system.inputs.units import unit_scale
