@@ -252,6 +252,7 @@ def test_a_page_with_figures_in_bar_has_all_of_them_in_bar(browser: Any, tmp_pat
     """Whichever comes first; the list says the unit of every figure, and MPa makes those in bar MPa, too."""
     readings = curve_figure()
     readings.axes[0].set_ylabel("delivery pressure [bar]")
+    readings.axes[0].set_yticks([10.0, 30.0], ["10", "30"])
     with rendered_figures():
         pictures = {"first": inlined(curve_figure()), "second": inlined(readings)}
     summary = {"solved": 1, "points": 1, "assumptions": []}
@@ -265,6 +266,8 @@ def test_a_page_with_figures_in_bar_has_all_of_them_in_bar(browser: Any, tmp_pat
         assert tab.locator('[name="pressure unit"]').input_value() == unit
         read = tab.evaluate("document.querySelectorAll('.plot')[1].data[0].y[45]")
         assert read == pytest.approx(size * PRESSURE[45], rel=1e-5)
+        texts = tab.evaluate("document.querySelectorAll('.plot')[1].layout.yaxis.ticktext ?? null")
+        assert texts == (["10", "30"] if unit == "bar" else None)
         tab.locator('[name="pressure unit"]').select_option("MPa")
     tab.context.close()
     assert not faults

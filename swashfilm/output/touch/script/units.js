@@ -22,7 +22,7 @@ function toPressure({ data, layout }, unit) {
     const axis = layout[name];
     if (pressures.has(name.replace("axis", ""))) {
       if (axis.range) axis.range = axis.range.map((end) => axis.type === "log" ? end + Math.log10(factor) : times(end));
-      scale(axis, ["tickvals"]);
+      for (const key of ["tickvals", "ticktext"]) delete axis[key]; // texts of the other unit
     }
   }
   for (const letter of ["x", "y"]) for (const mark of [...(layout.shapes ?? []), ...(layout.annotations ?? [])]) {
