@@ -5,6 +5,7 @@ from functools import cached_property
 from time import process_time
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 from scipy.special import log_ndtr
 
@@ -104,6 +105,12 @@ class Posterior:
         gained = 1.0 - np.diag(self.covariance)
         informed = gained > UNINFORMED
         return np.where(informed, self.xi / np.sqrt(np.where(informed, gained, 1.0)), 0.0)
+
+    @property
+    def at_bounds(self) -> NDArray[np.bool_]:
+        """(k,), parameters whose value is a bound: their sigma, of a slope there, does not hold."""
+        ends = zip(self.parameters, self.xi, strict=True)
+        return np.array([xi <= one.lowest or xi >= one.highest for one, xi in ends], dtype=bool)
 
     def index(self, name: str) -> int:
         """The index of a parameter in every vector. Raises InputError for an unknown name."""

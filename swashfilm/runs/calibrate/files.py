@@ -68,7 +68,6 @@ def parameter_rows(fit: Posterior) -> Iterator[Row]:
     """Every parameter: its prior one sigma either way, bounds, fitted value, sigma and distance in prior sigmas."""
     for at, parameter in enumerate(fit.parameters):
         sigma = float(np.sqrt(fit.covariance[at, at]))
-        held = fit.xi[at] <= parameter.lowest or fit.xi[at] >= parameter.highest
         mean = float(fit.values[at])
         unit, factor = parameter_unit(parameter.dimension, mean or parameter.centre)
         yield {
@@ -83,7 +82,7 @@ def parameter_rows(fit: Posterior) -> Iterator[Row]:
             "sigma": _text(factor * fit.sigma(parameter.name)),
             "sigma_over_prior [1]": _text(sigma),
             OFF: f"{float(fit.xi[at]):.3f}",
-            "at_bound": "yes" if held else "no",
+            "at_bound": "yes" if fit.at_bounds[at] else "no",
             "source": parameter.source,
         }
 

@@ -56,11 +56,12 @@ def extended_pump(
 def calibrated_pump(pump: PumpDescription, fit: Posterior, laws: Sequence[Extension] = ()) -> PumpDescription:
     """The pump with a fit's values, and with `laws` switched on; [tolerance] holds the fit's own sigmas.
 
-    A key of [tolerance] for several parameters has the widest of them. Others keep their tolerance; that of the drawing
-    is omitted for a fitted dimension. Raises ValueError for values outside an effect's limits.
+    A key of [tolerance] for several parameters has the widest of them; a value at a bound keeps its sigma. Others keep
+    their tolerance; that of the drawing is omitted for a fitted dimension. Raises ValueError for values outside an
+    effect's limits.
     """
     own = extended_pump(pump, values_by_name(fit.parameters, fit.values), laws)
-    sigma = np.sqrt(np.diag(fit.covariance))
+    sigma = np.where(fit.at_bounds, 1.0, np.sqrt(np.diag(fit.covariance)))
     stated = {one.name for one in fields(own.tolerance)}
     known: dict[str, Any] = {}
     for parameter, width in zip(fit.parameters, sigma, strict=True):

@@ -92,6 +92,19 @@ def test_its_tolerance_is_what_the_fit_leaves() -> None:
     assert pump.tolerance.viscosity == pytest.approx(sigma["viscosity"], rel=1e-9)
 
 
+def test_a_value_at_a_bound_keeps_its_tolerance() -> None:
+    """Its sigma, of the slope at the bound, says nothing."""
+    fit = _fit()
+    at = fit.index("dead_volume")
+    bound = fit.parameters[at].highest
+    held = replace(fit, xi=np.where(np.arange(fit.xi.size) == at, bound, fit.xi))
+    assert list(np.flatnonzero(held.at_bounds)) == [at]
+    assert not fit.at_bounds.any()
+    stated = tolerances(PUMP)[0].dead_volume
+    assert calibrated_pump(PUMP, held).tolerance.dead_volume == pytest.approx(stated)
+    assert calibrated_pump(PUMP, fit).tolerance.dead_volume < 0.999 * stated
+
+
 def test_constant_friction_is_a_level_line() -> None:
     fit = _fit()
     for curve in hersey_curves(_bench(), fit):
