@@ -240,15 +240,17 @@ def _unit_for(text: str, dimension: Dimension) -> Unit | None:
 def _with_unit(number: str, dimension: Dimension, example: str) -> str:
     """Return a number with the unit that it may lack: the one in which it is nearest to the usual value, `example`.
 
-    The SI unit is one of them: 0.01 of a length is "0.01 m", 22 is "22 mm".
+    The SI unit where it is ten times nearer than those that people write: 0.01 of a length is "0.01 m", 22 is "22 mm".
     """
     usual, shown = parse_quantity(example, dimension), number.removesuffix(".0")
+    written = (unit_in(example), *dimension.reading_units)
 
     def away(unit: str) -> float:
         value = float(_in_si(number, _unit_of(unit), dimension))
-        return abs(math.log(value / usual)) if value > 0.0 < usual else 0.0
+        rare = 0.0 if unit in written else math.log(10.0)
+        return rare + abs(math.log(value / usual)) if value > 0.0 < usual else rare
 
-    return f"{shown} {min((unit_in(example), *dimension.reading_units, dimension.si_unit), key=away)}"
+    return f"{shown} {min((*written, dimension.si_unit), key=away)}"
 
 
 def _gauge_meant(number: str, unit_text: str, dimension: Dimension) -> str:
