@@ -2,7 +2,7 @@
 
 Prints for `ref90` the rounds of gaps and chambers with their changes and films, by gap the steps and films of its last
 round, time and headline numbers: processor time of one process, or with --beside the time from start to end with
-each gap in a process, as `swashfilm run` has them. The first call after a change of the program compiles; the second
+gaps in processes, as `swashfilm run` has them. The first call after a change of the program compiles; the second
 one counts.
 """
 
@@ -61,7 +61,9 @@ def main() -> None:
     """Time a point and print it."""
     parser = argparse.ArgumentParser(description="Time one floating point.")
     parser.add_argument("--rigid", action="store_true", help="rigid walls, oil that neither pressure nor heat changes")
-    parser.add_argument("--beside", action="store_true", help="each gap in a process; time from start to end")
+    parser.add_argument(
+        "--beside", action="store_true", help="gaps in processes, as many as cores; time from start to end"
+    )
     parser.add_argument("--speed", default="2100 rpm")
     parser.add_argument("--pressure", default="35 MPa")
     parser.add_argument("--displacement", type=float, default=1.0, help="of the full one")

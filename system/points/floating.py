@@ -119,7 +119,7 @@ def floating_point(
     report: Report = silent,
     solved: Solved | None = None,
 ) -> FloatingPoint:
-    """One periodic operating point with the three gaps floating; side by side: each gap in a process.
+    """One periodic operating point with the three gaps floating; side by side: in processes of their own.
 
     near: a point of the same pump, whose motion, temperatures, spins and chambers this one starts from. solved: is
     filled with rounds and gaps as they are solved, and keeps them where a later one fails. Raises NotConverged where

@@ -92,9 +92,10 @@ class RoundDrives:
 
 
 def started(beside: GapsBeside, asked: RoundDrives, group: Group) -> None:
-    """Begin a round of pistons and slippers in their processes."""
+    """Begin a round of the gaps that have a process."""
     beside.pistons.start(_driven_by(asked, group, group.physics.piston))
-    beside.slippers.start(_driven_by(asked, group, group.physics.slipper))
+    if beside.slippers is not None:
+        beside.slippers.start(_driven_by(asked, group, group.physics.slipper))
 
 
 def _driven_by(asked: RoundDrives, group: Group, physics: Physics) -> tuple[Driven, ...]:
@@ -130,8 +131,8 @@ def gap_revolutions(
 ) -> tuple[FloatingGaps, ...]:
     """The gaps of each kind over the revolution, continued from those before.
 
-    Pistons and slippers are those of their processes, if these are `started`. Each gap is kept in `solved` as soon as
-    it is found.
+    Pistons and slippers are those of their processes, where they have one, `started` before. Each gap is kept in
+    `solved` as soon as it is found.
     """
     options = [
         replace(asked.options, physics=own)
@@ -146,6 +147,8 @@ def gap_revolutions(
             for of, last in each
         )
         pistons = solved.keep(Gap.PISTON, kinds, options[0], turning)
+    apart = None if beside is None else beside.slippers
+    if apart is None:
         sliding = (
             slipper_revolution(
                 of.rotor, of.parts, of.drives.slipper, options[1], last.slipper if last else None, report
@@ -156,8 +159,9 @@ def gap_revolutions(
     block_before = None if before is None else before[0].block
     block = block_revolution(asked.rotor, group.parts[0], driven[0].block, options[2], block_before, report)
     solved.keep(Gap.VALVE_PLATE, kinds, options[2], [block])
+    if apart is not None:
+        slippers = solved.keep(Gap.SLIPPER, kinds, options[1], apart.fetch(report))
     if beside is not None:
-        slippers = solved.keep(Gap.SLIPPER, kinds, options[1], beside.slippers.fetch(report))
         pistons = solved.keep(Gap.PISTON, kinds, options[0], beside.pistons.fetch(report))
     return tuple(
         FloatingGaps(piston, slipper, block, of.chambers[0])

@@ -18,8 +18,8 @@ SLOWEST = 0.8
 """Factor by which a round reduces the changes, at most."""
 GAP_SHARES = {"slipper": 0.25, "block": 0.3, "piston": 0.45}
 """Share of each gap in the work of a round."""
-SHARES_BESIDE = {"block": 0.8, "slipper": 0.05, "piston": 0.15}
-"""The same where other processes solve slipper and piston meanwhile."""
+SHARES_BESIDE = {"slipper": 0.35, "block": 0.5, "piston": 0.15}
+"""The same where another process solves the piston meanwhile."""
 TURNS = 1
 """Number of turns after which a gap counts as nine tenths solved."""
 

@@ -6,7 +6,7 @@ A process keeps the last revolutions' films, so that only drives and reports are
 import multiprocessing
 import signal
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from typing import Any, Literal
@@ -19,6 +19,7 @@ from system.films.drives import Rubbing, drives
 from system.films.parts import FloatingParts
 from system.films.rotor import Rotor
 from system.points.floating_gaps import FloatingOptions, piston_revolution, slipper_revolution
+from system.work.processes import cores
 from system.work.progress import Report
 
 Found = GapRevolution[Any]
@@ -81,18 +82,25 @@ class GapBeside:
 
 @dataclass(frozen=True)
 class GapsBeside:
-    """The processes of pistons and slippers."""
+    """The processes of pistons and of slippers; None where this process solves the slippers."""
 
     pistons: GapBeside
-    slippers: GapBeside
+    slippers: GapBeside | None
 
 
 @contextmanager
 def gaps_beside(
     parts: tuple[FloatingParts, ...], pistons: Sequence[Found | None], slippers: Sequence[Found | None]
 ) -> Iterator[GapsBeside]:
-    """Processes for pistons and slippers, as `gap_beside`; their revolutions from which the first ones continue."""
-    with gap_beside(Gap.PISTON, parts, pistons) as one, gap_beside(Gap.SLIPPER, parts, slippers) as other:
+    """Processes for pistons and slippers, as `gap_beside`; their revolutions from which the first ones continue.
+
+    On two cores the slippers have none: pistons take about as long as slippers and block together.
+    """
+    apart = cores() > 2
+    with (
+        gap_beside(Gap.PISTON, parts, pistons) as one,
+        gap_beside(Gap.SLIPPER, parts, slippers) if apart else nullcontext() as other,
+    ):
         yield GapsBeside(one, other)
 
 
