@@ -1,4 +1,4 @@
-"""Where the value of an input comes from that a recording lacks."""
+"""Origin of an input that a recording lacks: another channel, the pump file or the ambient pressure."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _OTHER = {ChannelName.T_IN: ChannelName.T_CASE, ChannelName.T_CASE: ChannelName.
 
 
 class Origin(Enum):
-    """The value of an input beside the recording: its name in a text."""
+    """Source of a value outside the recording; the value is its name in a text."""
 
     PUMP_FILE = "the pump file"
     AMBIENT = "the ambient pressure"

@@ -148,7 +148,7 @@ def _sentences(diagnosis: Diagnosis, scant: bool) -> Iterator[str]:
 
 
 def _which(diagnosis: Diagnosis) -> str:
-    """What a claim with a class is sure of; empty for claims without one."""
+    """Statement to which the certainty of a claim with a class refers; empty for claims without a class."""
     claims = diagnosis.effects
     outside = any(EffectId.UNKNOWN_PHYSICS in claim.equivalent for claim in claims)
     alike = any(_named(claim) - {claim.effect} or claim.elsewhere for claim in claims)

@@ -36,7 +36,7 @@ NARROWED = 0.5
 MATERIAL = 0.002
 """Of the median of a channel: smaller changes are not reported."""
 UNSEEN = 0.01
-"""Of one sigma of a channel: a smaller change of it is none."""
+"""Share of one sigma of a channel below which a change of it counts as zero."""
 MOST_TOLD = 3
 """Effects in a sentence."""
 HEAD = (

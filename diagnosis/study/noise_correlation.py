@@ -50,7 +50,7 @@ def noise_excess(study: Study, limits: MismatchLimits) -> Array:
 
 @dataclass(frozen=True)
 class FitRemainder:
-    """What a fit leaves of n readings, P = 1 - W W^T with W (n, m): no matrix (n, n) is made."""
+    """Residual projection of a fit to n readings, P = 1 - W W^T with W (n, m), without a matrix (n, n)."""
 
     columns: Array
 

@@ -65,7 +65,7 @@ def half_space_memory(vertices: int, unknowns: int) -> float:
 
 
 def too_large(needed: float, unknowns: int) -> tuple[str, str]:
-    """What was found and expected of a film whose influences do not fit into the machine's memory (bytes)."""
+    """Texts of a fault, found and expected: the influences of a film need more bytes than the machine has memory."""
     there = physical_memory()
     fit = int(np.sqrt(there / (8.0 * DENSE_COPIES)))
     found = f"{unknowns} unknowns, each of which deforms all others: about {needed * 1e-9:.3g} GB"

@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 from reynolds.numerics.arrays import Array
 
 WINDOW = 5  # vertices in a row that must lie on one circle
-OFF = 0.02  # of an edge's rise over its chord: larger distances of vertices from the circle are none
+OFF = 0.02  # of an edge's rise over its chord: largest distance of a vertex from the circle
 FLATTEST = 1e-7  # rise over length of an edge; flatter ones are straight
-WIDEST = np.radians(46.0)  # angle of an edge: a polygon of fewer than eight edges is none
+WIDEST = np.radians(46.0)  # largest angle of an edge: a polygon of fewer than eight edges is no circle
 
 
 def arc_middles(mesh: skfem.Mesh) -> tuple[NDArray[np.int64], Array]:

@@ -192,7 +192,7 @@ def mesh_from_file(path: Path) -> FilmMesh:
 
 
 def _plane_fault(points: Array) -> str:
-    """What keeps points (n, 3) out of a plane of constant z; empty without a fault."""
+    """Reason why points (n, 3) do not lie in a plane of constant z; empty if they do."""
     spans = np.ptp(points, axis=0)
     near = FLAT * spans.max()
     if not spans[2] > near:  # points without coordinates are told by `mesh_faults`

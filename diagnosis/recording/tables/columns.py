@@ -29,7 +29,7 @@ class ColumnReader:
         self.notes.append(DataNote(NoteKind.NOTED, None, (), text))
 
     def warn(self, text: str) -> None:
-        """Add a warning on the data, which is told first."""
+        """Add a warning on the data; reports begin with the warnings."""
         self.notes.append(DataNote(NoteKind.WARNED, None, (), text))
 
     def columns(self, section: str, source: TableSource) -> TableColumns | None:

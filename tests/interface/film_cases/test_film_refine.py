@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import skfem
 from bench_pump import BENCH
+from slider_case import slider_case
 
 from reynolds import Cell, annulus, film_space, mesh_from_file, rectangle
 from reynolds.fem.mesh import FilmMesh, loop_names
@@ -20,17 +21,7 @@ from swashfilm.__main__ import main
 from swashfilm.output.headline import sizes
 from swashfilm.output.refinement import Refinement, refinement_rows, refinement_summary
 
-SLIDER = """
-format = 1
-[film]
-mesh = { kind = "rectangle", size = ["10 mm", "10 mm"], cells = [16, 2], periodic = "y" }
-thickness = "1e-5*(2 - x/0.01)"
-velocity = ["1 m/s", "0 m/s"]
-viscosity = "30 mPa s"
-[boundary]
-left = { pressure = "0 bar" }
-right = { pressure = "0 bar" }
-"""
+SLIDER = slider_case('"10 mm", "10 mm"', "16, 2")
 LOAD = 0.15888308 * 0.03 * 0.01**2 / 1e-5**2 * 0.01  # closed form (Rayleigh 1918), n = 2
 
 

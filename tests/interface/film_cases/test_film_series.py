@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray
+from slider_case import slider_case
 
 from swashfilm.__main__ import main
 from swashfilm.case.study import StudyCase, _axis, load_film
@@ -15,18 +16,7 @@ from swashfilm.runs.film.series import films as film_series
 from system import InputFaults
 from system.inputs.toml_table import Table
 
-BASE = """
-format = 1
-[film]
-mesh = { kind = "rectangle", size = ["10 mm", "10 mm"], cells = [8, 2], periodic = "y" }
-thickness = "1e-5*(2 - x/0.01)"
-velocity = ["1 m/s", "0 m/s"]
-viscosity = "30 mPa s"
-[boundary]
-left = { pressure = "0 bar" }
-right = { pressure = "0 bar" }
-[study]
-"""
+BASE = slider_case('"10 mm", "10 mm"', "8, 2") + "[study]\n"
 SPEEDS = '"film.velocity[0]" = ["1 m/s", "2 m/s", "4 m/s"]\n'
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import meshio
 import numpy as np
 import pytest
+from slider_case import slider_case
 
 import swashfilm as sf
 from swashfilm.api.tables import tables_of_file
@@ -21,17 +22,7 @@ SLIDER = {
     },
     "boundary": {"left": {"pressure": 0.0}, "right": {"pressure": "0 bar"}},
 }
-IN_UNITS = """
-format = 1
-[film]
-mesh = { kind = "rectangle", size = ["10 mm", "1 mm"], cells = [16, 2], periodic = "y" }
-thickness = "1e-5*(2 - x/0.01)"
-velocity = ["1 m/s", "0 m/s"]
-viscosity = "30 mPa s"
-[boundary]
-left = { pressure = "0 bar" }
-right = { pressure = "0 bar" }
-"""
+IN_UNITS = slider_case('"10 mm", "1 mm"', "16, 2")
 
 
 def changed(**film) -> dict:
