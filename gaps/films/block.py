@@ -68,13 +68,13 @@ class BlockDrive:
 
 
 def wrench_about(places: Array, forces: Array, spline_height: float) -> Array:
-    """(sum of F_z N, moments about x and y N m) of forces (n, 3) N at places (n, 3) m, about the shaft's point S.
+    """(sum of F_z N, moments about x and y N m), (..., 3), of forces (..., n, 3) N at places (..., n, 3) m, about S.
 
-    S lies on the z axis at `spline_height` (m) over the valve plate: where the shaft holds the block sideways.
+    S is the shaft's point at `spline_height` (m) over the valve plate, on the z axis: where the shaft holds the block
+    sideways.
     """
-    (x, y, z), (along_x, along_y, along_z) = np.asarray(places).T, np.asarray(forces).T
-    above = z - spline_height
-    return np.array([along_z.sum(), np.sum(y * along_z - above * along_y), np.sum(above * along_x - x * along_z)])
+    moments = np.cross(places - np.array([0.0, 0.0, spline_height]), forces)
+    return np.concatenate([forces[..., 2:], moments[..., :2]], axis=-1).sum(axis=-2)
 
 
 def generalised(wrench: Array, radius: float) -> Array:

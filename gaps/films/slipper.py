@@ -101,9 +101,9 @@ class SlipperDrive:
     inertia: Array | None = None
 
 
-def face_force(outer_radius: float, lift: float, pressed: Array) -> Array:
-    """Generalised forces (3,) N that require of a film a lift (N) and int p (x, y) dA = pressed (2,) N m."""
-    return -np.array([lift, pressed[0] / outer_radius, pressed[1] / outer_radius])
+def face_force(outer_radius: float, lift: Array | float, pressed: Array) -> Array:
+    """Generalised forces (..., 3) N that ask of a film a lift (...) N and int p (x, y) dA = pressed, (..., 2) N m."""
+    return -np.concatenate([np.asarray(lift)[..., None], pressed / outer_radius], axis=-1)
 
 
 def face_inertia(outer_radius: float, lifted: float, mass: float, centre_of_mass: float, tilt: float) -> Array:
@@ -120,12 +120,12 @@ def face_inertia(outer_radius: float, lifted: float, mass: float, centre_of_mass
 def pressed_by(inertia: Array, centre_of_mass: float, friction: Array, ball_height: float, ball_moment: Array) -> Array:
     """int p (x, y) dA (N m) that the film must give to keep the slipper's moments about the ball in balance.
 
-    l m A - H T + n x M: inertia m A (2,) N of its centre of mass, l (m) from the ball towards the face; friction T (2,)
-    N of the plate on the face, H (m) from the ball; moment M (2,) N m of the joint on the slipper. All along the
-    plate's x and y; the slipper's moments of inertia are neglected.
+    l m A - H T + n x M: inertia m A (..., 2) N of its centre of mass, l (m) from the ball towards the face; friction T
+    (..., 2) N of the plate on the face, H (m) from the ball; moment M (..., 2) N m of the joint on the slipper. All
+    along the plate's x and y; the slipper's moments of inertia are neglected.
     """
-    turned = np.array([-ball_moment[1], ball_moment[0]])
-    return np.asarray(centre_of_mass * np.asarray(inertia) - ball_height * np.asarray(friction) + turned)
+    turned = np.stack([-ball_moment[..., 1], ball_moment[..., 0]], axis=-1)
+    return np.asarray(centre_of_mass * inertia - ball_height * friction + turned)
 
 
 def hagen_poiseuille_conductance(diameter: float, length: float, viscosity: float) -> float:

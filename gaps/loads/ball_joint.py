@@ -1,7 +1,7 @@
 """The ball joint between piston and slipper, and piston side forces: loads of both films, friction of the joint.
 
-Vectors (3,) in any right-handed frame, N, m, s. a is the bore's axis out of the block, n the swash plate's normal
-away from the block, B the force of the piston on the slipper:
+Vectors (..., 3) in any right-handed frame, N, m, s; leading axes are instants. a is the bore's axis out of the block,
+n the swash plate's normal away from the block, B the force of the piston on the slipper:
 
     slipper   m_s A   = B + G_s - lift n          piston   m_p a_p = -B + G_p + L,  L . a = 0
 
@@ -26,9 +26,9 @@ ROUNDING = 1e-14  # of the parts of the minimised sum: its round-off
 
 @dataclass(frozen=True)
 class DrivenBody:
-    """Piston or slipper at one instant.
+    """Piston or slipper.
 
-    mass kg; acceleration (3,) m/s2 of its centre of mass; force (3,) N, the sum of all forces on it but the
+    mass kg; acceleration (..., 3) m/s2 of its centre of mass; force (..., 3) N, the sum of all forces on it but the
     joint's and its own film's.
     """
 
@@ -38,55 +38,66 @@ class DrivenBody:
 
     @property
     def lack(self) -> Array:
-        """Force (3,) N required of joint and film together."""
+        """Force (..., 3) N required of joint and film together."""
         return self.mass * self.acceleration - self.force
 
 
 @dataclass(frozen=True)
 class BallForces:
-    """Forces of joint and films at one instant, N.
+    """Forces of joint and films, N.
 
-    ball: force (3,) of the piston on the slipper; lift: of the slipper's film away from the plate, without other
-    pressing forces (retainer, spring); side: force (3,) of the bore's film on the piston, across the bore.
+    ball: force (..., 3) of the piston on the slipper; lift (...): of the slipper's film away from the plate, without
+    other pressing forces (retainer, spring); side: force (..., 3) of the bore's film on the piston, across the bore.
     """
 
     ball: Array
-    lift: float
+    lift: Array
     side: Array
 
 
 def ball_forces(bore_axis: Array, plate_normal: Array, piston: DrivenBody, slipper: DrivenBody) -> BallForces:
     """Forces of joint, slipper film and bore, from both bodies' balance of forces (module docstring).
 
+    bore_axis (..., 3), plate_normal (3,).
+
     The ball's acceleration is the slipper's prescribed motion along the plate: growth and tilting of its film are
     neglected (1e-4 of the rest). Raises FilmInputError where the plate hardly faces the bore (n . a < 0.1).
     """
-    facing = float(plate_normal @ bore_axis)
-    if not facing >= LEAST_FACING:
-        raise FilmInputError("ball joint, plate normal along the bore", f"{facing:.3g}", f"at least {LEAST_FACING}")
-    in_plate = slipper.lack - (slipper.lack @ plate_normal) * plate_normal
-    along_bore = -float(piston.lack @ bore_axis)
-    normal = (along_bore - float(in_plate @ bore_axis)) / facing
-    ball = in_plate + normal * plate_normal
+    facing = bore_axis @ plate_normal
+    if not np.min(facing) >= LEAST_FACING:
+        found = f"{np.min(facing):.3g}"
+        raise FilmInputError("ball joint, plate normal along the bore", found, f"at least {LEAST_FACING}")
+    pressing = slipper.lack @ plate_normal
+    in_plate = slipper.lack - pressing[..., None] * plate_normal
+    normal = -_along(piston.lack + in_plate, bore_axis) / facing
+    ball = in_plate + normal[..., None] * plate_normal
     side = piston.lack + ball
-    return BallForces(ball, normal - float(slipper.lack @ plate_normal), side - (side @ bore_axis) * bore_axis)
+    return BallForces(ball, normal - pressing, side - _along(side, bore_axis)[..., None] * bore_axis)
 
 
-def swept_acceleration(place: Array, axis: Array, velocity: float, acceleration: float, shaft_speed: float) -> Array:
-    """Acceleration (3,) m/s2 of a point at `place` (3,) m that slides along an axis turning with the shaft.
+def _along(vectors: Array, axis: Array) -> Array:
+    """Parts (...) of vectors (..., 3) along axes (..., 3)."""
+    return np.asarray(np.sum(vectors * axis, axis=-1))
+
+
+def swept_acceleration(
+    place: Array, axis: Array, velocity: Array | float, acceleration: Array | float, shaft_speed: float
+) -> Array:
+    """Acceleration (..., 3) m/s2 of a point at `place` (..., 3) m that slides along an axis turning with the shaft.
 
     s'' a + 2 w s' z x a - w^2 (r - z z . r): along the bore, Coriolis (zero for a cylindrical block) and centripetal, z
-    the shaft's axis. velocity s' m/s, acceleration s'' m/s2, shaft_speed w rad/s, constant.
+    the shaft's axis. velocity s' (...) m/s, acceleration s'' (...) m/s2, shaft_speed w rad/s, constant.
     """
-    inward = shaft_speed**2 * np.array([place[0], place[1], 0.0])
-    around = np.array([-axis[1], axis[0], 0.0])
-    return np.asarray(acceleration * axis + 2.0 * shaft_speed * velocity * around - inward)
+    along, gained = np.asarray(velocity)[..., None], np.asarray(acceleration)[..., None]
+    inward = shaft_speed**2 * place * [1.0, 1.0, 0.0]
+    around = np.cross([0.0, 0.0, 1.0], axis)
+    return np.asarray(gained * axis + 2.0 * shaft_speed * along * around - inward)
 
 
 def relative_spin(
     bore_axis: Array, plate_normal: Array, shaft_speed: float, piston_spin: float, slipper_spin: float
 ) -> Array:
-    """Angular velocity (3,) rad/s of the slipper against the piston: s n - w z - s_p a.
+    """Angular velocity (..., 3) rad/s of the slipper against the piston: s n - w z - s_p a.
 
     piston_spin s_p about its axis relative to the block, slipper_spin s about the plate's normal relative to the plate,
     both rad/s; the slipper's tilting is neglected.
@@ -94,15 +105,15 @@ def relative_spin(
     return np.asarray(slipper_spin * plate_normal - shaft_speed * np.array([0.0, 0.0, 1.0]) - piston_spin * bore_axis)
 
 
-def ball_friction(coefficient: float, force: float, radius: float, spin: Array, shaft_speed: float) -> Array:
-    """Moment (3,) N m of the joint's friction on the slipper, -mu |B| r W/|W|; its opposite acts on the piston.
+def ball_friction(coefficient: float, force: Array | float, radius: float, spin: Array, shaft_speed: float) -> Array:
+    """Moment (..., 3) N m of the joint's friction on the slipper, -mu |B| r W/|W|; its opposite acts on the piston.
 
-    Coulomb's law on the ball's radius (m) under a force (N), W the relative spin (rad/s); |W| is replaced by sqrt(W^2 +
-    (0.01 w)^2), so that a joint at rest has no friction. Exact for a contact that is small compared with the ball and W
-    normal to the force; contact over the whole socket has another factor, of order one.
+    Coulomb's law on the ball's radius (m) under a force (...) N, W the relative spin (..., 3) rad/s; |W| is replaced by
+    sqrt(W^2 + (0.01 w)^2), so that a joint at rest has no friction. Exact for a contact that is small compared with the
+    ball and W normal to the force; contact over the whole socket has another factor, of order one.
     """
-    width = np.sqrt(float(spin @ spin) + (CREEP * shaft_speed) ** 2)
-    return np.asarray(-coefficient * abs(force) * radius / width * spin)
+    size = coefficient * np.abs(force) * radius / _width(spin, shaft_speed)
+    return np.asarray(-size[..., None] * spin)
 
 
 def bore_drag(viscosity: float, diameter: float, length: float, clearance: float) -> float:
@@ -181,19 +192,20 @@ def _width(spin: Array, shaft_speed: float) -> Array:
     return np.asarray(np.sqrt(np.sum(spin * spin, axis=-1) + (CREEP * shaft_speed) ** 2))
 
 
-def lateral_force(guide_length: float, depth: float, force: Array) -> Array:
-    """Generalised forces (4,) N of a force (2,) N across the bore on the piston, `depth` (m) inside the case edge.
+def lateral_force(guide_length: float, depth: Array | float, force: Array) -> Array:
+    """Generalised forces (..., 4) N of a force (..., 2) N across the bore on the piston.
 
-    P0 = G s/Lg, P1 = G (1 - s/Lg): a force outside the guide (s < 0) pulls its ends opposite ways.
+    It acts `depth` (...) m inside the case edge. P0 = G s/Lg, P1 = G (1 - s/Lg): a force outside the guide (s < 0)
+    pulls its ends opposite ways.
     """
-    share = depth / guide_length
-    return np.concatenate([share * np.asarray(force), (1.0 - share) * np.asarray(force)])
+    share = np.asarray(depth / guide_length)[..., None]
+    return np.concatenate([share * force, (1.0 - share) * force], axis=-1)
 
 
 def lateral_moment(guide_length: float, moment: Array) -> Array:
-    """Generalised forces (4,) N of a moment (2,) N m on the piston, about axes across the bore.
+    """Generalised forces (..., 4) N of a moment (..., 2) N m on the piston, about axes across the bore.
 
     P0 = a x M/Lg = -P1, a the bore's axis out of the block.
     """
-    couple = np.array([-moment[1], moment[0]]) / guide_length
-    return np.concatenate([couple, -couple])
+    couple = np.stack([-moment[..., 1], moment[..., 0]], axis=-1) / guide_length
+    return np.concatenate([couple, -couple], axis=-1)

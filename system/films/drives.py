@@ -61,19 +61,19 @@ def no_rubbing(count: int) -> Rubbing:
 
 
 @dataclass(frozen=True)
-class GroupInstant:
-    """One piston with its slipper at a shaft angle.
+class GroupBalance:
+    """One piston with its slipper at shaft angles (N,).
 
-    forces at the joint; ball_moment (3,) N m of its friction on the slipper; joint_loss W, what that takes;
-    pressed (2,) N m: int p (x, y) dA that the slipper's film must give; held N, force of the spring on the slipper
-    besides `forces.lift`; inertia (2, 3) N of piston and slipper, -m a; plate (3,) N of the swash plate on the
-    slipper; places (3, 3) m of both centres of mass and of the middle of the slipper's face; couple (3,) N m of the
-    plate's force about that middle, finite where its lift passes through zero.
+    forces at the joint; ball_moment (N, 3) N m of its friction on the slipper; joint_loss (N,) W, what that takes;
+    pressed (N, 2) N m: int p (x, y) dA that the slipper's film must give; held N, force of the spring on the slipper
+    besides `forces.lift`; inertia (N, 2, 3) N of piston and slipper, -m a; plate (N, 3) N of the swash plate on the
+    slipper; places (N, 3, 3) m of both centres of mass and of the middle of the slipper's face; couple (N, 3) N m of
+    the plate's force about that middle, finite where its lift passes through zero.
     """
 
     forces: BallForces
     ball_moment: Array
-    joint_loss: float
+    joint_loss: Array
     pressed: Array
     held: float
     inertia: Array
@@ -81,31 +81,35 @@ class GroupInstant:
     places: Array
     couple: Array
 
+    @property
+    def forces_there(self) -> Array:
+        """Forces (N, 3, 3) N at `places`: of inertia on both parts, of the swash plate."""
+        return np.concatenate([self.inertia, self.plate[:, None]], axis=1)
 
-def group_instant(
-    rotor: Rotor, parts: FloatingParts, angle: float, pressure: float, rubbing: tuple[float, Array]
-) -> GroupInstant:
-    """The balance of piston and slipper at a shaft angle (rad) and chamber pressure (Pa).
 
-    `rubbing`: force N of the bore's film along the piston, and force (2,) N of the plate's film on the slipper.
+def group_balance(
+    rotor: Rotor, parts: FloatingParts, angle: Array, pressure: Array, drag: Array, friction: Array
+) -> GroupBalance:
+    """The balance of piston and slipper at shaft angles (N,) rad and chamber pressures (N,) Pa.
+
+    drag (N,) N of the bore's film along the piston; friction (N, 2) N of the plate's film on the slipper.
     """
     pump, drive, speed = rotor.pump, rotor.drive, rotor.point.shaft_speed
     axis, plate = bore_axis(drive, angle), plate_axes(drive)
     normal, ball = plate[2], ball_centre(rotor, angle)
     along = piston_velocity(drive, angle, speed), piston_acceleration(drive, angle, speed)
     piston_place = ball - parts.piston.centre_of_mass * axis
-    piston_rate = swept_acceleration(piston_place, axis, float(along[0]), float(along[1]), speed)
-    in_plate = slipper_acceleration(drive, angle, speed)
+    piston_rate = swept_acceleration(piston_place, axis, *along, speed)
+    in_plate = slipper_acceleration(drive, angle, speed).T
     slipper_rate = in_plate @ plate[:2]
-    drag, friction = rubbing
-    push = (piston_area(pump) * (pressure - rotor.point.case_pressure) + drag) * axis
+    push = (piston_area(pump) * (pressure - rotor.point.case_pressure) + drag)[:, None] * axis
     forces = ball_forces(
         axis, normal, DrivenBody(pump.piston.mass, piston_rate, push),
         DrivenBody(pump.slipper.mass, slipper_rate, friction @ plate[:2]),
     )  # fmt: skip
     spin = relative_spin(axis, normal, speed, rotor.spins.piston, rotor.spins.slipper)
     moment = ball_friction(
-        pump.friction.piston_slipper_socket, float(np.linalg.norm(forces.ball)), pump.slipper.ball_joint_radius,
+        pump.friction.piston_slipper_socket, np.linalg.norm(forces.ball, axis=-1), pump.slipper.ball_joint_radius,
         spin, speed,
     )  # fmt: skip
     inertia = pump.slipper.mass * in_plate
@@ -115,15 +119,15 @@ def group_instant(
     held = _spring_share(rotor, parts)
     lift = forces.lift + held
     face = ball + parts.slipper.ball_height * normal
-    return GroupInstant(
+    return GroupBalance(
         forces=forces,
         ball_moment=moment,
-        joint_loss=-float(moment @ spin),
+        joint_loss=-np.sum(moment * spin, axis=-1),
         pressed=pressed,
         held=held,
-        inertia=-np.stack([pump.piston.mass * piston_rate, pump.slipper.mass * slipper_rate]),
-        plate=friction @ plate[:2] - lift * normal,
-        places=np.stack([piston_place, ball + pump.slipper.centre_of_mass_to_ball * normal, face]),
+        inertia=-np.stack([pump.piston.mass * piston_rate, pump.slipper.mass * slipper_rate], axis=1),
+        plate=friction @ plate[:2] - lift[:, None] * normal,
+        places=np.stack([piston_place, ball + pump.slipper.centre_of_mass_to_ball * normal, face], axis=1),
         couple=np.cross(pressed @ plate[:2], -normal),
     )
 
@@ -152,12 +156,12 @@ def slipper_retainer(rotor: Rotor, parts: FloatingParts) -> Retainer:
 
 @dataclass(frozen=True)
 class Drives:
-    """The drives of the three gaps at one chamber pressure, and the balances (N,) from which they follow."""
+    """The drives of the three gaps at one chamber pressure, and the balance from which they follow."""
 
     piston: PistonDrive
     slipper: SlipperDrive
     block: BlockDrive
-    group: tuple[GroupInstant, ...]
+    group: GroupBalance
 
 
 def drives(rotor: Rotor, parts: FloatingParts, shaft_angle: Array, pressure: Array, rubbing: Rubbing) -> Drives:
@@ -166,10 +170,7 @@ def drives(rotor: Rotor, parts: FloatingParts, shaft_angle: Array, pressure: Arr
     A chamber that cavitates is within a kilopascal of the cavity's pressure, which films have then.
     """
     pressure = np.maximum(pressure, CAVITY_PRESSURE)
-    group = tuple(
-        group_instant(rotor, parts, float(a), float(p), (float(rubbing.piston[k]), rubbing.slipper[k]))
-        for k, (a, p) in enumerate(zip(shaft_angle, pressure, strict=True))
-    )
+    group = group_balance(rotor, parts, shaft_angle, pressure, rubbing.piston, rubbing.slipper)
     chamber = PeriodicCurve(shaft_angle, pressure)
     return Drives(
         piston=_piston_drive(rotor, parts, shaft_angle, chamber, group, rubbing),
@@ -180,18 +181,13 @@ def drives(rotor: Rotor, parts: FloatingParts, shaft_angle: Array, pressure: Arr
 
 
 def _piston_drive(
-    rotor: Rotor, parts: FloatingParts, angles: Array, chamber: OverTurn, group: tuple[GroupInstant, ...],
-    rubbing: Rubbing,
-) -> PistonDrive:  # fmt: skip
-    pump, point = rotor.pump, rotor.point
-    outer = np.empty((len(angles), 4))
-    for k, (angle, at) in enumerate(zip(angles, group, strict=True)):
-        sides = bore_sides(rotor.drive, float(angle))
-        ball = -(pump.piston.overhang + travel(rotor, float(angle)))
-        joint = lateral_force(parts.piston.guide_length, ball, -sides @ at.forces.ball)
-        mass = lateral_force(parts.piston.guide_length, ball + parts.piston.centre_of_mass, sides @ at.inertia[0])
-        turned = lateral_moment(parts.piston.guide_length, rubbing.piston_moment[k] - sides @ at.ball_moment)
-        outer[k] = joint + mass + turned
+    rotor: Rotor, parts: FloatingParts, angles: Array, chamber: OverTurn, group: GroupBalance, rubbing: Rubbing
+) -> PistonDrive:
+    pump, point, guide = rotor.pump, rotor.point, parts.piston.guide_length
+    sides, ball = bore_sides(rotor.drive, angles), -(pump.piston.overhang + travel(rotor, angles))
+    joint = lateral_force(guide, ball, -np.matvec(sides, group.forces.ball))
+    mass = lateral_force(guide, ball + parts.piston.centre_of_mass, np.matvec(sides, group.inertia[:, 0]))
+    turned = lateral_moment(guide, rubbing.piston_moment - np.matvec(sides, group.ball_moment))
     return PistonDrive(
         shaft_speed=point.shaft_speed,
         viscosity=point.viscosity,
@@ -200,17 +196,17 @@ def _piston_drive(
         piston_spin=point.shaft_speed + rotor.spins.piston,
         bore_spin=point.shaft_speed,
         chamber_pressure=chamber,
-        reach=lambda angle: np.asarray(pump.piston.engaged_length - travel(rotor, angle)),
+        reach=lambda angle: pump.piston.engaged_length - travel(rotor, angle),
         velocity=lambda angle: piston_velocity(rotor.drive, angle, point.shaft_speed),
-        outer=PeriodicCurve(angles, outer),
+        outer=PeriodicCurve(angles, joint + mass + turned),
     )
 
 
 def _slipper_drive(
-    rotor: Rotor, parts: FloatingParts, angles: Array, chamber: OverTurn, group: tuple[GroupInstant, ...]
+    rotor: Rotor, parts: FloatingParts, angles: Array, chamber: OverTurn, group: GroupBalance
 ) -> SlipperDrive:
     pump, point, outer_radius = rotor.pump, rotor.point, slipper_shape(rotor, parts).outer_radius
-    outer = np.array([face_force(outer_radius, at.forces.lift + at.held, at.pressed) for at in group])
+    outer = face_force(outer_radius, group.forces.lift + group.held, group.pressed)
     return SlipperDrive(
         shaft_speed=point.shaft_speed,
         viscosity=point.viscosity,
@@ -233,26 +229,17 @@ def _slipper_drive(
 
 
 def block_drive(
-    rotor: Rotor,
-    parts: FloatingParts,
-    angles: Array,
-    pressure: Sequence[Array],
-    groups: Sequence[tuple[GroupInstant, ...]],
+    rotor: Rotor, parts: FloatingParts, angles: Array, pressure: Sequence[Array], groups: Sequence[GroupBalance]
 ) -> BlockDrive:
-    """Pressing forces on the block: pressures (N,) Pa and balances (N,) over a chamber's own angles (N,) rad.
+    """Pressing forces on the block: pressures (N,) Pa and balances over a chamber's own angles (N,) rad.
 
     Of one chamber for all, or of each.
     """
     point, pistons = rotor.point, rotor.pump.pump.pistons
     step, height = len(angles) // pistons, parts.block.spline_height
     by_chamber = [
-        np.array(
-            [
-                wrench_about(at.places, np.vstack([at.inertia, at.plate]), height) + np.array([0.0, *at.couple[:2]])
-                for at in group
-            ]
-        )
-        for group in groups
+        wrench_about(one.places, one.forces_there, height) + np.pad(one.couple[:, :2], ((0, 0), (1, 0)))
+        for one in groups
     ]
     press = sum(np.roll(by_chamber[k % len(groups)], -k * step, axis=0) for k in range(pistons))
     held = np.maximum(np.stack(pressure, axis=-1), CAVITY_PRESSURE)

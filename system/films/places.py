@@ -53,19 +53,18 @@ def face_frame(rotor: Rotor, ball_height: float, shaft_angle: float) -> Frame:
     return Frame(ball_centre(rotor, shaft_angle) + ball_height * normal, steepest, across, normal)
 
 
-def ball_centre(rotor: Rotor, shaft_angle: float) -> Array:
-    """Centre (3,) m of a ball joint in the pump frame."""
-    radius = float(ball_radius(rotor.drive, shaft_angle))
-    height = _ball_height(rotor, shaft_angle)
-    return np.array([radius * np.cos(shaft_angle), radius * np.sin(shaft_angle), height])
+def ball_centre(rotor: Rotor, shaft_angle: Array | float) -> Array:
+    """Centre (..., 3) m of a ball joint in the pump frame at shaft angles (...) rad."""
+    radius, height = ball_radius(rotor.drive, shaft_angle), _ball_height(rotor, shaft_angle)
+    return np.stack([radius * np.cos(shaft_angle), radius * np.sin(shaft_angle), height], axis=-1)
 
 
-def _ball_height(rotor: Rotor, shaft_angle: float) -> float:
-    """Height of the ball centre over the valve plate (m): dead space, guide and overhang along the bore."""
+def _ball_height(rotor: Rotor, shaft_angle: Array | float) -> Array:
+    """Height of the ball centre over the valve plate (...) m: dead space, guide and overhang along the bore."""
     pump = rotor.pump
     dead = pump.pump.dead_volume / piston_area(pump)
     reach = dead + pump.piston.engaged_length + pump.piston.overhang + travel(rotor, shaft_angle)
-    return float(reach * np.cos(pump.pump.bore_cone_angle))
+    return np.asarray(reach * np.cos(pump.pump.bore_cone_angle))
 
 
 @dataclass(frozen=True)

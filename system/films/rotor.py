@@ -45,9 +45,9 @@ def rotor(pump: PumpDescription, point: OperatingPoint) -> Rotor:
     return Rotor(pump, point, full, drive_at_ratio(full, point.displacement_ratio))
 
 
-def travel(rotor: Rotor, shaft_angle: float) -> float:
-    """Way of the piston (m) beyond its innermost place at full displacement."""
-    return piston_stand_out(rotor.pump, rotor.drive) + float(piston_displacement(rotor.drive, shaft_angle))
+def travel(rotor: Rotor, shaft_angle: Array | float) -> Array:
+    """Way of the piston (...) m beyond its innermost place at full displacement, at shaft angles (...) rad."""
+    return np.asarray(piston_stand_out(rotor.pump, rotor.drive) + piston_displacement(rotor.drive, shaft_angle))
 
 
 def engaged_share(rotor: Rotor, guide_length: float, shaft_angles: Array) -> Array:
@@ -55,8 +55,7 @@ def engaged_share(rotor: Rotor, guide_length: float, shaft_angles: Array) -> Arr
 
     1 where the piston reaches through; else the film's inner end is the piston's own.
     """
-    ways = np.array([travel(rotor, float(angle)) for angle in shaft_angles])
-    return np.minimum((rotor.pump.piston.engaged_length - ways) / guide_length, 1.0)
+    return np.minimum((rotor.pump.piston.engaged_length - travel(rotor, shaft_angles)) / guide_length, 1.0)
 
 
 def valve_plate_geometry(pump: PumpDescription, turned: float = 0.0) -> ValvePlateGeometry:

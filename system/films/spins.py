@@ -76,7 +76,7 @@ def _balanced(
     """The spins at which friction and films balance at a shaft speed (rad/s)."""
     angles = TURN * np.arange(len(torques.friction)) / len(torques.friction)
     return free_spins(
-        bore_axis=np.array([bore_axis(drive, angle) for angle in angles]),
+        bore_axis=bore_axis(drive, angles),
         plate_normal=plate_axes(drive)[2],
         shaft_speed=speed,
         friction=torques.friction,

@@ -19,11 +19,11 @@ def floating_joint_forces(found: FloatingPoint) -> JointForces:
 
 
 def _loads(kind: FloatingKind, axis: Array, plate_axes: Array) -> ChamberLoads:
-    """Result of `drives.group_instant`: the piston's balance along its bore, friction in the plate."""
+    """Result of `drives.group_balance`: the piston's balance along its bore, friction in the plate."""
     pump = kind.rotor.pump
     masses = GroupMasses(pump.piston.mass, pump.slipper.mass, kind.parts.piston.centre_of_mass)
     at = kind.drives.group
-    along = [float(one.forces.ball @ a - one.inertia[0] @ a) for one, a in zip(at, axis.T, strict=True)]
-    in_plate = np.array([one.plate - (one.plate @ plate_axes[2]) * plate_axes[2] for one in at]).T
-    known = SetLoads(np.array(along), in_plate, np.array([one.ball_moment for one in at]).T)
+    along = np.sum((at.forces.ball - at.inertia[:, 0]) * axis.T, axis=-1)
+    in_plate = at.plate - (at.plate @ plate_axes[2])[:, None] * plate_axes[2]
+    known = SetLoads(along, in_plate.T, at.ball_moment.T)
     return ChamberLoads(masses, levers(pump, kind.rotor.point), known)

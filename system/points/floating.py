@@ -242,7 +242,7 @@ def _round(
     taken = Round(
         float(np.max(np.abs(np.array(following.pressure) - asked.pressure))) / problems[0].pressure_span,
         max(map(_rubbing_change, asked.rubbing, following.rubbing))
-        / max(at.forces.lift for one in driven for at in one.group),
+        / max(float(one.group.forces.lift.max()) for one in driven),
         _spins_change(turning, group, following),
         asked.options.accuracy.settled,
         sum(gap.films_solved for gap in turned),

@@ -12,7 +12,7 @@ import numpy as np
 from gaps.films.reports import BlockReport, GapReport, PistonReport, Reported, SlipperReport
 from gaps.revolution.march import GapRevolution
 from reynolds.numerics.arrays import Array
-from system.films.drives import GroupInstant, Rubbing
+from system.films.drives import GroupBalance, Rubbing
 from system.films.parts import FloatingParts
 from system.films.rotor import Rotor, travel, valve_plate_geometry
 from system.films.spins import SpinTorques, SpunFilms, torques_of_films
@@ -105,24 +105,22 @@ def ball_shift(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts) -> Array:
     h thick, so the ball also moves along the bore: d = e - a (n . e + h)/(n . a).
     """
     normal, across = plate_axes(rotor.drive)[2], axis_shift(gaps, rotor, parts, 0.0)
-    axis, film = bore_axes(rotor, len(across)), positions(gaps.slipper)[:, 0]
+    axis, film = bore_axis(rotor.drive, shaft_angles(len(across))), positions(gaps.slipper)[:, 0]
     return np.asarray(across - axis * ((across @ normal + film) / (axis @ normal))[:, None])
 
 
 def axis_shift(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts, inside: float) -> Array:
     """Distance (n, 3) m of the piston's axis from the bore's, `inside` (m) of the ball into the bore."""
-    piston, guide = positions(gaps.piston), parts.piston.guide_length
-    shift = np.empty((len(piston), 3))
-    for k, angle in enumerate(TURN * np.arange(len(piston)) / len(piston)):
-        depth = inside - rotor.pump.piston.overhang - travel(rotor, angle)
-        inner, case = piston[k, :2], piston[k, 2:]
-        shift[k] = (case + (inner - case) * depth / guide) @ bore_sides(rotor.drive, angle)
-    return shift
+    piston, angles = positions(gaps.piston), shaft_angles(len(gaps.piston.positions))
+    depth = inside - rotor.pump.piston.overhang - travel(rotor, angles)
+    inner, case = piston[:, :2], piston[:, 2:]
+    across = case + (inner - case) * (depth / parts.piston.guide_length)[:, None]
+    return np.vecmat(across, bore_sides(rotor.drive, angles))
 
 
-def bore_axes(rotor: Rotor, count: int) -> Array:
-    """The bore's axis (count, 3) at equidistant shaft angles."""
-    return np.array([bore_axis(rotor.drive, TURN * k / count) for k in range(count)])
+def shaft_angles(count: int) -> Array:
+    """Equidistant shaft angles (count,) rad from 0."""
+    return TURN * np.arange(count) / count
 
 
 def growth(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts) -> Array:
@@ -136,8 +134,8 @@ def growth(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts) -> Array:
     pistons, shift = pump.pump.pistons, ball_shift(gaps, rotor, parts)
     block = np.tile(block, (len(shift) // len(block), 1))
     block = np.roll(block, gaps.chamber * len(shift) // pistons, axis=0)
-    angle = TURN * np.arange(len(shift)) / len(shift)
-    along = np.sum(shift * bore_axes(rotor, len(shift)), axis=1)
+    angle = shaft_angles(len(shift))
+    along = np.sum(shift * bore_axis(rotor.drive, angle), axis=1)
     rise = (block[:, 1] * np.cos(angle) + block[:, 2] * np.sin(angle)) / rim
     lifted, area = block[:, 0] + pump.pump.pitch_radius * rise, piston_area(pump)
     kidney = plate.kidney_area * block[:, 0] + plate.kidney_lever * rise
@@ -155,14 +153,14 @@ def rubbing(gaps: FloatingGaps, samples: int) -> Rubbing:
 
 
 def spin_torques(
-    gaps: FloatingGaps, rotor: Rotor, group: tuple[GroupInstant, ...], tried: tuple[SpunFilms, ...] = ()
+    gaps: FloatingGaps, rotor: Rotor, group: GroupBalance, tried: tuple[SpunFilms, ...] = ()
 ) -> SpinTorques:
     """Torques on the spins of piston and slipper by their films and the joint's forces, means over the turn.
 
     tried: films of the rounds before at the same point, from which the change of torque with spin follows.
     """
     pump = rotor.pump
-    force = np.array([np.linalg.norm(at.forces.ball) for at in group])
+    force = np.linalg.norm(group.forces.ball, axis=-1)
     friction = pump.friction.piston_slipper_socket * force * pump.slipper.ball_joint_radius
     torques = (
         _mean(gaps.piston, lambda report: report.friction.torque),
@@ -171,7 +169,7 @@ def spin_torques(
     return torques_of_films(rotor.estimated_torques, friction, SpunFilms(rotor.spins, torques), tried)
 
 
-def shaft_moment(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts, group: tuple[GroupInstant, ...]) -> Array:
+def shaft_moment(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts, group: GroupBalance) -> Array:
     """Torque (N,) N m by which the piston with its slipper resists the shaft, from the forces on them.
 
     The moment about the shaft of the swash plate's force and friction and of inertia, at the places where the
@@ -180,17 +178,13 @@ def shaft_moment(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts, group: 
     on the rigid parts, r' = dr/d angle of their centres of mass.
     """
     ball, normal = ball_shift(gaps, rotor, parts), plate_axes(rotor.drive)[2]
-    axis = bore_axes(rotor, len(ball))
+    axis = bore_axis(rotor.drive, shaft_angles(len(ball)))
     along = np.sum(ball * axis, axis=1)[:, None] * axis
     piston = along + axis_shift(gaps, rotor, parts, parts.piston.centre_of_mass)
-    shift = resampled(np.stack([piston, ball, ball], axis=1), len(group))
-    held = [
-        -float(np.cross(at.places + moved, np.vstack([at.inertia, at.plate]))[:, 2].sum() + at.couple[2])
-        + float(at.ball_moment @ normal * normal[2])
-        for at, moved in zip(group, shift, strict=True)
-    ]
-    swung = _swung(rotor, np.array([at.places[:2] for at in group]), shift[:, :2])
-    return np.asarray(np.array(held) + swung)
+    shift = resampled(np.stack([piston, ball, ball], axis=1), len(group.places))
+    turned = np.cross(group.places + shift, group.forces_there)[..., 2].sum(axis=-1) + group.couple[:, 2]
+    rubbed = group.ball_moment @ normal * normal[2]
+    return np.asarray(rubbed - turned + _swung(rotor, group.places[:, :2], shift[:, :2]))
 
 
 def _swung(rotor: Rotor, places: Array, shift: Array) -> Array:
@@ -212,13 +206,13 @@ def block_torque(block: GapRevolution[BlockReport], samples: int) -> Array:
     return resampled(np.tile(passing(block, lambda report: report.torque + report.tilted_torque), turns), samples)
 
 
-def with_floating_gaps(losses: FrictionPairs, gaps: FloatingGaps, group: tuple[GroupInstant, ...]) -> FrictionPairs:
+def with_floating_gaps(losses: FrictionPairs, gaps: FloatingGaps, group: GroupBalance) -> FrictionPairs:
     """The pairs with those of the three gaps from their films: shear of oil as viscous, rubbing as Coulomb's.
 
     The joint's friction is that of its forces and spins. Ball guide and bearings are unchanged.
     """
-    pistons, samples = losses.piston_cylinder.count, len(group)
-    joint = np.array([at.joint_loss for at in group])
+    pistons, joint = losses.piston_cylinder.count, group.joint_loss
+    samples = len(joint)
     return replace(
         losses,
         piston_cylinder=_pair(pistons, gaps.piston, samples),

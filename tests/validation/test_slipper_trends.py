@@ -188,10 +188,10 @@ SUCTION = np.radians((40.0, 150.0))  # the suction kidney fully open
 def pressed_out(at: At) -> float:
     """Largest offset of the slipper's load during suction, over its outer radius; inf: pulled."""
     group, _, drive = driven(at)
-    angles = np.linspace(0.0, 2.0 * np.pi, len(drive.group), endpoint=False)
+    lift, moment = drive.group.forces.lift + drive.group.held, np.hypot(*drive.group.pressed.T)
+    angles = np.linspace(0.0, 2.0 * np.pi, len(lift), endpoint=False)
     while_drawing = (angles > SUCTION[0]) & (angles < SUCTION[1])
-    lift = np.array([instant.forces.lift + instant.held for instant in drive.group])[while_drawing]
-    moment = np.array([np.hypot(*instant.pressed) for instant in drive.group])[while_drawing]
+    lift, moment = lift[while_drawing], moment[while_drawing]
     if lift.min() <= 0.0:
         return float("inf")
     return float(np.max(moment / lift)) / group.pump.slipper.land_outer_radius

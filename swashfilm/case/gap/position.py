@@ -85,7 +85,7 @@ def with_arm(load: Load, rotor: Rotor, angle: float) -> Load:
     """Return the load, of a piston with its arm."""
     if not isinstance(load, PistonLoad) or load.arm is not None:
         return load
-    return replace(load, arm=rotor.pump.piston.overhang + travel(rotor, angle))
+    return replace(load, arm=rotor.pump.piston.overhang + float(travel(rotor, angle)))
 
 
 def rim(gap: Gap, rotor: Rotor) -> float:

@@ -9,19 +9,19 @@ from reynolds.numerics.arrays import Array
 from system.pump.laws.kinematics import SwashDrive
 
 
-def bore_axis(drive: SwashDrive, shaft_angle: float) -> Array:
-    """Unit vector (3,) of a bore axis, out of the block; cones open towards the swash plate."""
-    cone = drive.bore_cone_angle
-    return np.array([np.sin(cone) * np.cos(shaft_angle), np.sin(cone) * np.sin(shaft_angle), np.cos(cone)], dtype=float)
+def bore_axis(drive: SwashDrive, shaft_angle: Array | float) -> Array:
+    """Unit vectors (..., 3) of a bore axis at angles (...), out of the block; cones open towards the swash plate."""
+    cone, angle = drive.bore_cone_angle, np.asarray(shaft_angle)
+    out = np.full(angle.shape, np.cos(cone))
+    return np.stack([np.sin(cone) * np.cos(angle), np.sin(cone) * np.sin(angle), out], axis=-1)
 
 
-def bore_sides(drive: SwashDrive, shaft_angle: float) -> Array:
-    """Two unit vectors (2, 3) square to a bore axis: x towards the inner dead centre's side, y = axis cross x."""
+def bore_sides(drive: SwashDrive, shaft_angle: Array | float) -> Array:
+    """Two unit vectors (..., 2, 3) square to a bore axis: x towards the inner dead centre's side, y = axis cross x."""
     axis = bore_axis(drive, shaft_angle)
-    side = np.array([1.0, 0.0, 0.0]) - axis[0] * axis
-    side /= np.linalg.norm(side)
-    (ax, ay, az), (x, y, z) = axis.tolist(), side.tolist()
-    return np.array([[x, y, z], [ay * z - az * y, az * x - ax * z, ax * y - ay * x]])
+    side = np.array([1.0, 0.0, 0.0]) - axis[..., :1] * axis
+    side /= np.linalg.norm(side, axis=-1, keepdims=True)
+    return np.stack([side, np.cross(axis, side)], axis=-2)
 
 
 def plate_axes(drive: SwashDrive) -> Array:

@@ -114,8 +114,8 @@ def slipper_sliding_speed(drive: SwashDrive[Number], shaft_angle: Array | float,
     return np.hypot(*slipper_sliding_velocity(drive, shaft_angle, shaft_speed))
 
 
-def slipper_acceleration(drive: SwashDrive, shaft_angle: float, shaft_speed: float) -> Array:
-    """Acceleration (2,) m/s2 of the ball centre in the swash plate's plane: time derivative of Eq. (9), corrected.
+def slipper_acceleration(drive: SwashDrive, shaft_angle: Array | float, shaft_speed: float) -> Array:
+    """Acceleration (2, ...) m/s2 of the ball centre in the swash plate's plane: time derivative of Eq. (9), corrected.
 
     Axes as in `slipper_sliding_velocity`. P = R (cos phi/cos g, sin phi)/(1 + t cos phi) twice derived.
     """

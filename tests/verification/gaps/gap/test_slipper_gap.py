@@ -312,7 +312,7 @@ def test_centrifugal_force_presses_the_inner_side(shaft_angle):
     found = instant_drives(group, floating_parts(pump), shaft_angle, np.array([PRESSURE]))
     forward = found.slipper.sliding(shaft_angle)
     forward = forward / np.hypot(*forward)
-    inward, pressed = np.array([-forward[1], forward[0]]), found.group[0].pressed
+    inward, pressed = np.array([-forward[1], forward[0]]), found.group.pressed[0]
     swing = pump.slipper.mass * pump.pump.pitch_radius * point.shaft_speed**2 * pump.slipper.centre_of_mass_to_ball
     assert pressed @ inward == pytest.approx(swing, rel=0.15)  # the path on the plate is an ellipse, not a circle
     assert abs(pressed @ forward) < 0.15 * swing

@@ -18,7 +18,7 @@ from system import (
     rotor,
     slipper_acceleration,
 )
-from system.films.drives import group_instant
+from system.films.drives import group_balance
 from system.films.places import ball_centre
 from system.films.rotor import travel
 from system.pump.laws.directions import bore_sides
@@ -38,11 +38,12 @@ def test_piston_and_slipper_together_obey_newton():
     """All forces from outside, with those of both films, move the two masses: an independent vector sum."""
     group, parts = posed()
     pump, speed, drag, friction = group.pump, group.point.shaft_speed, 37.0, np.array([-20.0, 11.0])
-    for angle in ANGLES:
-        found = group_instant(group, parts, angle, 2e7, (drag, friction))
+    whole = np.ones(18)
+    found = group_balance(group, parts, ANGLES, 2e7 * whole, drag * whole, np.outer(whole, friction))
+    for k, angle in enumerate(ANGLES):
         axis, plate = bore_axis(group.drive, angle), plate_axes(group.drive)
         push = (piston_area(pump) * (2e7 - group.point.case_pressure) + drag) * axis
-        outside = push + found.forces.side - found.forces.lift * plate[2] + friction @ plate[:2]
+        outside = push + found.forces.side[k] - found.forces.lift[k] * plate[2] + friction @ plate[:2]
         place = ball_centre(group, angle) - parts.piston.centre_of_mass * axis
         velocity = float(piston_velocity(group.drive, angle, speed))
         acceleration = float(piston_acceleration(group.drive, angle, speed))
@@ -55,19 +56,20 @@ def test_piston_and_slipper_together_obey_newton():
 def test_a_slipper_without_lift_has_a_finite_moment():
     """At the pressure at which its lift passes through zero the plate's moment is that beside it."""
     group, parts = posed(retainer__kind="clearance")
-    rubbing = 37.0, np.array([-20.0, 11.0])
 
-    def at(pressure):
-        return group_instant(group, parts, 0.3, pressure, rubbing)
+    def at(*pressures):
+        both = np.ones(2)
+        friction = np.outer(both, [-20.0, 11.0])
+        return group_balance(group, parts, 0.3 * both, np.array(pressures), 37.0 * both, friction)
 
-    low, high = (at(pressure).forces.lift + at(pressure).held for pressure in (0.0, 1e7))
+    low, high = at(0.0, 1e7).forces.lift + at(0.0, 1e7).held
     balanced = -low * 1e7 / (high - low)  # the lift is linear in the pressure
-    none, beside = at(balanced), at(balanced + 1.0)
-    assert abs(none.forces.lift + none.held) < 1e-6
-    np.testing.assert_allclose(none.couple, beside.couple, rtol=1e-6, atol=1e-9)
-    np.testing.assert_allclose(none.places, beside.places, rtol=0.0, atol=1e-12)
-    moved = np.cross(none.couple, plate_axes(group.drive)[2])
-    np.testing.assert_allclose(moved, none.pressed @ plate_axes(group.drive)[:2], rtol=1e-9)
+    found = at(balanced, balanced + 1.0)
+    assert abs(found.forces.lift[0] + found.held) < 1e-6
+    np.testing.assert_allclose(*found.couple, rtol=1e-6, atol=1e-9)
+    np.testing.assert_allclose(*found.places, rtol=0.0, atol=1e-12)
+    moved = np.cross(found.couple, plate_axes(group.drive)[2])
+    np.testing.assert_allclose(moved, found.pressed @ plate_axes(group.drive)[:2], rtol=1e-9)
 
 
 def test_the_piston_turns_about_its_guide_as_its_forces_ask():
@@ -76,15 +78,15 @@ def test_the_piston_turns_about_its_guide_as_its_forces_ask():
     found = drives(group, parts, ANGLES, np.full(18, 2e7), no_rubbing(18))
     guide = parts.piston.guide_length
     for k, angle in enumerate(ANGLES):
-        outer, at = found.piston.outer(angle).reshape(2, 2), found.group[k]
+        outer, at = found.piston.outer(angle).reshape(2, 2), found.group
         sides, axis = bore_sides(group.drive, angle), bore_axis(group.drive, angle)
         ball = group.pump.piston.overhang + travel(group, angle)  # outside the case edge
-        np.testing.assert_allclose(outer.sum(axis=0), -sides @ at.forces.side, atol=1e-9 * np.abs(outer).max())
-        forces, levers = (-at.forces.ball, at.inertia[0]), (ball, ball - parts.piston.centre_of_mass)
+        np.testing.assert_allclose(outer.sum(axis=0), -sides @ at.forces.side[k], atol=1e-9 * np.abs(outer).max())
+        forces, levers = (-at.forces.ball[k], at.inertia[k, 0]), (ball, ball - parts.piston.centre_of_mass)
         moment = sum(np.cross(lever * axis, force) for lever, force in zip(levers, forces, strict=True))
         # About the case edge only what presses at the inner end has a lever.
         ends = np.cross(-guide * axis, outer[0] @ sides)
-        asked = sides @ (moment - at.ball_moment)
+        asked = sides @ (moment - at.ball_moment[k])
         np.testing.assert_allclose(sides @ ends, asked, atol=1e-9 * np.abs(asked).max())
 
 
