@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 from swashfilm.case.fields.field import Field, MeshData, Uniform
+from swashfilm.case.tables.bodies import FileBodySection
 from swashfilm.case.tables.boundary import BoundarySection
 from swashfilm.case.tables.elastic import ElasticStatement
 from swashfilm.case.tables.film import FilmSection
@@ -39,6 +41,12 @@ class FilmStatement:
             return self.film.viscosity
         assert self.oil is not None
         return Uniform(self.oil.dynamic_viscosity, Dimension.DYNAMIC_VISCOSITY)
+
+    @property
+    def files(self) -> tuple[Path, ...]:
+        """Files that the case names: of the film's mesh and of bodies."""
+        walls = self.elastic.stated.walls.values() if self.elastic else ()
+        return (*self.film.mesh.files, *(wall.mesh for wall in walls if isinstance(wall, FileBodySection)))
 
     def refined(self) -> FilmStatement:
         """Return the film on a mesh twice finer, with the data of a mesh file on it, and with half its time step."""

@@ -45,6 +45,11 @@ class FileMesh:
     film_mesh: FilmMesh
     data: MeshData
 
+    @property
+    def files(self) -> tuple[Path, ...]:
+        """The file."""
+        return (self.path,)
+
     def finer(self) -> FileMesh:
         """Return the mesh twice finer, with its data."""
         refined = refine_mesh(self.film_mesh)
@@ -79,6 +84,11 @@ class FileMeshSection:
         """Data of the file."""
         return self.file.data
 
+    @property
+    def files(self) -> tuple[Path, ...]:
+        """The file."""
+        return self.file.files
+
     @cached_property
     def film_mesh(self) -> FilmMesh:
         """The mesh, m."""
@@ -101,6 +111,7 @@ class RectangleSection:
     """A rectangle; its boundaries are left, right, bottom and top."""
 
     data: ClassVar[MeshData] = MeshData()
+    files: ClassVar[tuple[Path, ...]] = ()
 
     kind: Literal[BuiltInShape.RECTANGLE]
     size: Annotated[tuple[float, float], Several(2), Dimension.LENGTH, Positive]  # along x and y
@@ -128,6 +139,7 @@ class AnnulusSection:
     """A ring about the origin; its boundaries are inner and outer."""
 
     data: ClassVar[MeshData] = MeshData()
+    files: ClassVar[tuple[Path, ...]] = ()
 
     kind: Literal[BuiltInShape.ANNULUS]
     inner_radius: Length

@@ -5,6 +5,7 @@ import json
 import tomllib
 from pathlib import Path
 
+import meshio
 import numpy as np
 import pytest
 import xarray
@@ -13,6 +14,7 @@ from slider_case import slider_case
 from swashfilm.__main__ import main
 from swashfilm.case.study import StudyCase, _axis, load_film
 from swashfilm.runs.film.series import films as film_series
+from swashfilm.runs.film.series.films import study_digest
 from system import InputFaults
 from system.inputs.toml_table import Table
 
@@ -143,6 +145,24 @@ def test_an_interrupted_study_goes_on_where_it_stopped(monkeypatch, capsys):
     written(SPEEDS, BASE.replace("30 mPa s", "31 mPa s"))
     assert main(["film", "slider.toml", "-o", "other", "--resume", "run"]) == 0
     assert len(solved) == 7
+
+
+def test_points_of_another_mesh_file_or_program_are_solved_anew(monkeypatch, here):
+    film = 'format = 1\n[film]\nmesh = "pad.vtu"\nthickness = "h"\nvelocity = ["u", "0 m/s"]\n'
+    film += 'viscosity = "1 Pa s"\n[boundary]\nouter = { pressure = "0 bar" }\n[study]\n'
+    path = written('"film.viscosity" = ["30 mPa s"]\n', film)
+
+    def key_at(speed: float) -> str:
+        points = [(1e-3 * x, 1e-3 * y, 0.0) for y in range(3) for x in range(3)]
+        quads = [("quad", np.array([[k, k + 1, k + 4, k + 3] for k in (0, 1, 3, 4)]))]
+        data = {"h": [np.array([2e-5, 1e-5, 2e-5, 1e-5])], "u": [np.full(4, speed)]}
+        meshio.write_points_cells(here / "pad.vtu", np.array(points), quads, cell_data=data)
+        return study_digest(load_film(path).case((0,)))
+
+    slow = key_at(1.0)
+    assert key_at(2.0) != slow == key_at(1.0)
+    monkeypatch.setattr(film_series, "version", lambda package: "0.0")
+    assert key_at(1.0) != slow
 
 
 def test_two_workers_give_what_one_gives():

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from swashfilm.case.file import load_case
+from swashfilm.runs.film.series.films import study_digest
 from swashfilm.runs.film.solve.study import solve_case
 from swashfilm.runs.film.summary import film_summary
 from system import Fault, InputFaults, check_pump, floating_parts, load_pump, resolved_toml
@@ -156,3 +157,14 @@ def test_a_free_film_on_a_mesh_in_its_unit(tmp_path):
     file.write_text(file.read_text("utf-8").replace('unit = "mm"\n', ""), "utf-8")
     with pytest.raises(InputFaults, match="no face under them"):
         load_case(file)
+
+
+def test_a_study_knows_the_content_of_a_body_file(tmp_path):
+    """Points of a study under another body of the same file name are not taken from an earlier run."""
+    mesh, keys = meshio.read(EXAMPLE), []
+    (tmp_path / "own.toml").write_text(FREE.replace("MESH", "own.vtu"), "utf-8")
+    for thicker in (1.0, 1.1):
+        mesh.points[:, 2] *= thicker
+        mesh.write(tmp_path / "own.vtu")
+        keys.append(study_digest(load_case(tmp_path / "own.toml")))
+    assert keys[0] != keys[1]

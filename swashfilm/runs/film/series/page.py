@@ -16,7 +16,7 @@ from swashfilm.output.run_folder import write_json
 from swashfilm.runs.film.series.answer import axes_of, main_spans, study_tiles, study_words
 from swashfilm.runs.film.series.courses import course_plots
 from swashfilm.runs.film.series.data import FILM_STUDY, study_dataset, study_summary, write_study_table
-from swashfilm.runs.film.series.films import digest, solved_summary
+from swashfilm.runs.film.series.films import solved_summary, study_digest
 from swashfilm.runs.film.series.plots import COURSES, study_plots
 from swashfilm.runs.film.series.points import StudyOutcome, StudyWork, run_points
 from system.work.progress import Report
@@ -29,7 +29,7 @@ def run_study(
 
     Returns the summary. Raises InputFaults as `run_points`; the tables list points that fail.
     """
-    work = StudyWork(study, digest, solved_summary)
+    work = StudyWork(study, study_digest, solved_summary)
     outcomes = run_points(work, folder, report, resumed=resumed, workers=workers)
     return write_study(study, outcomes, folder, FILM_STUDY)
 
