@@ -1,7 +1,7 @@
 """Flows and torque of a pump at the points of a bench map, before sensors read them."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -67,6 +67,15 @@ def losses(solved: Solved) -> FrictionPairs[Array]:
     at = solved.setting
     found = lumped_pairs(at.pump, at.point, at.motion, solved.courses)
     return found if solved.affected is None else rubbed(found, solved.affected.effects)
+
+
+def coefficient_losses(solved: Solved) -> FrictionPairs[Array]:
+    """The losses without the friction that laws add: their Coulomb part is proportional to the pairs' coefficients."""
+    changed = solved.affected
+    if changed is None:
+        return losses(solved)
+    bare = replace(changed.effects, extra_coulomb=np.zeros_like(changed.effects.extra_coulomb))
+    return losses(replace(solved, affected=replace(changed, effects=bare)))
 
 
 def shear_torques(solved: Solved) -> Array:

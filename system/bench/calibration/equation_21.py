@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
-from system.bench.outputs import losses
+from system.bench.outputs import coefficient_losses, losses
 from system.bench.parameters import friction_key
 from system.bench.points import BenchPoints
 from system.bench.setting import Setting
@@ -123,15 +123,18 @@ class EqTwentyOne:
 
 
 def eq_twenty_one(bench: LumpedBench, values: Array, parameters: tuple[Parameter, ...]) -> EqTwentyOne:
-    """Eq. (21) of a bench, all coefficients except those of `parameters` held at `values` (of the bench's own)."""
+    """Eq. (21) of a bench, all coefficients except those of `parameters` held at `values` (of the bench's own).
+
+    Friction that laws of [physics] add is part of the rest: it does not go with a coefficient.
+    """
     solved = bench.solved(values)
     simulated = solved.truth
-    at, found = solved.setting, losses(solved)
+    at, found, by_coefficient = solved.setting, losses(solved), coefficient_losses(solved)
     friction = at.pump.friction
     columns = []
     for parameter in parameters:
         pair = Pair(parameter.name.rpartition(".")[2])
-        own = found.loss(pair)
+        own = by_coefficient.loss(pair)
         power = _mean_power(at, own.count * own.coulomb)
         columns.append(power / getattr(friction, pair.value))
     matrix = np.stack(columns, axis=-1)

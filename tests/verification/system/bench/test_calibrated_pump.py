@@ -127,3 +127,15 @@ def test_friction_falls_with_the_hersey_number_by_the_law() -> None:
     constant = fit.values[fit.index("friction.piston_cylinder")]
     expected = constant + 0.8 * 0.05 * np.exp(-((curve.number / scale) ** exponent))
     assert curve.friction == pytest.approx(expected, rel=1e-9)
+
+
+def test_stated_mixed_friction_is_part_of_the_curve() -> None:
+    """[physics.mixed_friction] of the pump itself, which no fit changes, adds to the constant coefficient."""
+    stated = {"piston": 0.05, "slipper": 0.0, "valve_plate": 0.0, "hersey_scale": 1e-6, "exponent": 1.2}
+    pump = load_pump(BENCH, {f"physics.mixed_friction.{key}": value for key, value in stated.items()})
+    bench = LumpedBench(pump, POINTS, SIMULATED, _bench().parameters, inputs=())
+    for curve in hersey_curves(bench, _fit()):
+        name = f"friction.{PAIRS[curve.gap].value}"
+        added = stated[curve.gap.value] * np.exp(-((curve.number / 1e-6) ** 1.2))
+        assert curve.friction == pytest.approx(_fit().values[_fit().index(name)] + added, rel=1e-12)
+        assert curve.sigma == pytest.approx(_fit().sigma(name), rel=1e-3)

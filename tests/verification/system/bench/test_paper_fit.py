@@ -76,6 +76,21 @@ def test_the_equation_is_exact_in_the_coefficients() -> None:
     assert _eq().predict(values) == pytest.approx(loss, rel=1e-9)
 
 
+def test_friction_that_a_law_adds_goes_with_no_coefficient() -> None:
+    """A pump with [physics.mixed_friction]: its boundary friction stays while the coefficients change."""
+    law = {"piston": 0.05, "slipper": 0.05, "valve_plate": 0.05, "hersey_scale": 1e-6, "exponent": 1.0}
+    pump = load_pump("ref90", {f"physics.mixed_friction.{key}": value for key, value in law.items()})
+    few = replace(POINTS, **{name: values[::9] for name, values in vars(POINTS).items()})
+    bench = LumpedBench(pump, few, SIMULATED, paper_priors(pump)[0])
+    centre = np.array([one.centre for one in bench.parameters])
+    values = centre * np.array([1.3, 0.8, 1.1, 0.9, 1.02, 1.2, 0.85])
+    loss = measured_losses(few, _observed(bench.predict(values))).values
+    eq = eq_twenty_one(bench, centre, bench.parameters)
+    assert eq.predict(values) == pytest.approx(loss, rel=1e-9)
+    own = LumpedBench(PUMP, few, SIMULATED, paper_priors(PUMP)[0])
+    assert eq.columns == pytest.approx(eq_twenty_one(own, centre, own.parameters).columns, rel=1e-9)
+
+
 def test_one_speed_and_displacement_have_rank_two() -> None:
     """Every pair's loss is a straight line of pressure there: seven coefficients, two that could be told apart.
 
