@@ -7,6 +7,7 @@ are at its pressure and are no film; a port's edge lies on the next mesh line in
 """
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -85,7 +86,7 @@ class ValvePlateGeometry:
         _, r2, r3, _ = self.land_radii
         return 0.5 * self.kidney_arc * (r3**2 - r2**2)
 
-    @property
+    @cached_property
     def kidney_lever(self) -> float:
         """Moment of a unit pressure on a kidney about the face's middle, m3.
 

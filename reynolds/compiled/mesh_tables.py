@@ -48,7 +48,6 @@ class Mesh(NamedTuple):
 def mesh_of(space: FilmSpace) -> Mesh:
     """The tables of a space."""
     tensors, tables, pattern = space.tensors, space.reference, space.pattern
-    cells, normal = space.rim
     return Mesh(
         dofs=space.dofs,
         slots=pattern.slots,
@@ -66,9 +65,9 @@ def mesh_of(space: FilmSpace) -> Mesh:
         indices=pattern.indices,
         columns=pattern.columns,
         is_quadrilateral=has_hourglass_mode(space),
-        rim_cells=cells,
-        rim_unknowns=space.rim_dofs,
-        rim_normal=normal,
+        rim_cells=space.rim.cells,
+        rim_unknowns=space.rim.dofs,
+        rim_normal=space.rim_normal,
         basis=tables.loops[0],
         points=tables.loops[1],
     )

@@ -30,6 +30,15 @@ _ONE = np.ones((1, 1))
 
 
 @dataclass(frozen=True)
+class Rim:
+    """Facets of all named boundaries, one after another; the cell beside each, its unknowns (2 | 3, facets)."""
+
+    facets: NDArray[np.int64]
+    cells: NDArray[np.int64]
+    dofs: NDArray[np.int64]
+
+
+@dataclass(frozen=True)
 class FilmSpace:
     """Unknowns and geometry of a film mesh.
 
@@ -49,6 +58,7 @@ class FilmSpace:
     pattern: Pattern
     edge_dofs: Mapping[str, NDArray[np.int64]]
     facet_dofs: Mapping[str, NDArray[np.int64]]
+    rim: Rim
     sphere: Sphere = PLANE
 
     @cached_property
@@ -152,36 +162,16 @@ class FilmSpace:
     @cached_property
     def _facet_normal(self) -> dict[str, Array]:
         ends = np.cumsum([dofs.shape[1] for dofs in self.facet_dofs.values()])[:-1]
-        return dict(zip(self.facet_dofs, np.split(self._rim_normal, ends, axis=1), strict=True))
+        return dict(zip(self.facet_dofs, np.split(self.rim_normal, ends, axis=1), strict=True))
 
     @cached_property
-    def _rim(self) -> NDArray[np.int64]:
-        """Facets of all named boundaries, in the order of `facet_dofs`."""
-        mesh = self.film_mesh.mesh
-        return np.concatenate([np.zeros(0, dtype=np.int64), *(mesh.boundaries[name] for name in self.facet_dofs)])
-
-    @cached_property
-    def _rim_cells(self) -> NDArray[np.int64]:
-        return np.asarray(self.film_mesh.mesh.f2t[0, self._rim])
-
-    @cached_property
-    def _rim_normal(self) -> Array:
-        return _outward(self, self._rim)
-
-    @property
-    def rim(self) -> tuple[NDArray[np.int64], Array]:
-        """Cell beside each facet of all named boundaries, and its outward normal times length (2, facets) m."""
-        return self._rim_cells, self._rim_normal
-
-    @cached_property
-    def rim_dofs(self) -> NDArray[np.int64]:
-        """Unknowns of each facet of all named boundaries, (2 | 3, facets)."""
-        nothing = np.zeros((self.degree + 1, 0), dtype=np.int64)
-        return np.ascontiguousarray(np.hstack([nothing, *self.facet_dofs.values()]))
+    def rim_normal(self) -> Array:
+        """Outward normal of each facet of `rim` times its length, (2, facets) m."""
+        return _outward(self, self.rim.facets)
 
     @cached_property
     def _rim_length(self) -> Array:
-        return np.asarray(np.hypot(*self._rim_normal))
+        return np.asarray(np.hypot(*self.rim_normal))
 
     def edge_outflow(self, flux: tuple[Array, Array]) -> tuple[Array, Array]:
         """Flow (m3/s) out over each facet of all named boundaries, and its greatest possible magnitude.
@@ -189,7 +179,7 @@ class FilmSpace:
         (facets,) each, one boundary after another in the order of `facet_dofs`. `flux` (cells | 1, points | 1)
         m2/s; both zero for a line inside the film.
         """
-        normal, cells = self._rim_normal, self._rim_cells
+        normal, cells = self.rim_normal, self.rim.cells
         x, y = (np.mean(part if len(part) == 1 else part[cells], axis=1) for part in flux)
         return x * normal[0] + y * normal[1], np.hypot(x, y) * self._rim_length
 
@@ -263,15 +253,9 @@ class FilmSpace:
 
     def matrix(self, data: Array) -> csc_array:
         """Upper triangle of the operator with these entries."""
-        upper = copy(self._empty)
+        upper = copy(self.pattern.empty)
         upper.data = data
         return upper
-
-    @cached_property
-    def _empty(self) -> csc_array:
-        """An upper triangle to copy, since scipy checks indices of every new matrix."""
-        indices, indptr = self.pattern.indices, self.pattern.indptr
-        return csc_array((np.zeros(len(indices)), indices, indptr), shape=(self.size, self.size))
 
 
 def film_space(
@@ -305,6 +289,7 @@ def film_space(
         pattern=pattern_of(cell_dofs, len(numbers)),
         edge_dofs={name: np.unique(on) for name, on in facet_dofs.items()},
         facet_dofs=facet_dofs,
+        rim=_rim(film_mesh, degree, facet_dofs),
         sphere=sphere,
     )
 
@@ -347,6 +332,13 @@ def _facet_dofs(film_mesh: FilmMesh, basis: skfem.Basis, joined: NDArray[np.int6
             on = np.vstack([on, basis.dofs.facet_dofs[0][facets]])
         found[name] = joined[on]
     return found
+
+
+def _rim(film_mesh: FilmMesh, degree: int, facet_dofs: Mapping[str, NDArray[np.int64]]) -> Rim:
+    mesh = film_mesh.mesh
+    facets = np.concatenate([np.zeros(0, dtype=np.int64), *(mesh.boundaries[name] for name in facet_dofs)])
+    dofs = np.hstack([np.zeros((degree + 1, 0), dtype=np.int64), *facet_dofs.values()])
+    return Rim(facets, np.asarray(mesh.f2t[0, facets]), np.ascontiguousarray(dofs))
 
 
 def _tangent(space: FilmSpace, facets: NDArray[np.int64]) -> Array:

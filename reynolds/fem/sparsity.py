@@ -30,6 +30,12 @@ class Pattern:
         return self.indptr[1:] - 1
 
     @cached_property
+    def empty(self) -> csc_array:
+        """An upper triangle of zeros to copy, since scipy checks indices of every new matrix."""
+        size = len(self.indptr) - 1
+        return csc_array((np.zeros(len(self.indices)), self.indices, self.indptr), shape=(size, size))
+
+    @cached_property
     def pieces(self) -> tuple[int, NDArray[np.int32]]:
         """Number of separate pieces of the film, and the piece of each unknown (size,)."""
         size = len(self.indptr) - 1
