@@ -22,7 +22,7 @@ from system.points.table.means import SolvedPoint, given_films
 from system.points.table.point import table_point
 from system.points.table.response_table import ResponseTable
 from system.points.table.sources import PointSolver
-from system.points.table.store import table_record
+from system.points.table.store import table_name
 from system.pump.chamber.turn import Gaps
 from system.pump.laws.friction_pairs import Pair
 from system.pump.operating import OperatingPoint
@@ -106,9 +106,7 @@ class TableSolver:
     @property
     def stated(self) -> Mapping[str, str]:
         """The table's whole record, by content."""
-        learnt = self.table.response.learnt
-        name = content_key(table_record(self.table), learnt.points, learnt.values)[:KEY_LENGTH]
-        return {"fidelity": self.words, "table": name, **self.table.origin.stated}
+        return {"fidelity": self.words, "table": table_name(self.table), **self.table.origin.stated}
 
     def reads(self, pump: PumpDescription) -> PumpDescription:
         """All of it."""

@@ -10,7 +10,7 @@ from system.description.pump import PumpDescription
 from system.films.parts import floating_parts
 from system.points.table.means import GAP_PAIRS
 from system.points.table.point import TablePoint, table_point
-from system.points.table.response_table import LARGE_ERROR, axis_value, axis_words
+from system.points.table.response_table import LARGE_ERROR, ResponseTable, axis_value, axis_words
 from system.points.table.store import find_table, own_table
 from system.pump.operating import OperatingPoint
 
@@ -18,8 +18,13 @@ TABLE_POINT_HEAD = ("", "mean film", "least film", "share of contact", "largest 
 
 
 def point_by_table(pump: PumpDescription, point: OperatingPoint, path: Path | None) -> TablePoint:
-    """Return the point by the table of a file, or by a stored one that fits; raise InputFaults without one."""
-    return table_point(pump, point, own_table(path, pump) if path else find_table(pump, point))
+    """Return the point by the table of `table_of`."""
+    return table_point(pump, point, table_of(pump, point, path))
+
+
+def table_of(pump: PumpDescription, point: OperatingPoint, path: Path | None) -> ResponseTable:
+    """Return the table of a file, or the stored one that fits best; raise InputFaults without one."""
+    return own_table(path, pump) if path else find_table(pump, point)
 
 
 def table_point_summary(pump: PumpDescription, found: TablePoint) -> dict[str, Any]:

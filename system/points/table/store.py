@@ -159,6 +159,12 @@ def as_built(table: ResponseTable, pump: PumpDescription) -> PumpDescription:
     return replace(made, pump=replace(made.pump, displacement=pump.pump.displacement))
 
 
+def table_name(table: ResponseTable) -> str:
+    """Hash of all that a table holds: its record, and its points."""
+    learnt = table.response.learnt
+    return content_key(table_record(table), learnt.points, learnt.values)[:KEY_LENGTH]
+
+
 def table_record(table: ResponseTable) -> dict[str, Any]:
     """Content of the .json: origin, box, outputs with their errors."""
     origin = table.origin

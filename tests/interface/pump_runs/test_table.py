@@ -96,6 +96,20 @@ def test_a_table_is_built_told_and_run(stand_in, tmp_path, capsys):
         assert found["leakage"][f"{gap}_m3_per_s"] == pytest.approx(getattr(truth.leakage_flow, gap), rel=1e-3)
 
 
+def test_a_range_by_table_continues_with_points_of_the_same_table_alone(stand_in, tmp_path, capsys):
+    def kept_of(run, *resumed):
+        capsys.readouterr()
+        words = ["run", "ref90", "--fidelity", "table", "--vary", "operating.pressure=20,25MPa"]
+        assert main([*words, *resumed, "-o", str(tmp_path / run)]) == 0
+        return "2 points kept" in capsys.readouterr().err
+
+    assert main(["table", "ref90", *FEW, "-o", str(tmp_path / "few")]) == 0
+    assert not kept_of("one")
+    assert kept_of("two", "--resume", str(tmp_path / "one"))
+    assert main(["table", "ref90", "--points", "40", "--held-out", "6", "-o", str(tmp_path / "more")]) == 0
+    assert not kept_of("three", "--resume", str(tmp_path / "one"))
+
+
 def test_a_table_serves_every_temperature_of_a_pump_whose_clearances_change_with_it(stand_in, tmp_path):
     grown = replace(PUMP, physics=section_of(PhysicsSection, {"thermal_clearance": {"piston": {"rate": 1e-2}}}))
     file, run = tmp_path / "grown.toml", tmp_path / "run"

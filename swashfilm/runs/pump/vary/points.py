@@ -13,6 +13,9 @@ from swashfilm.case.study import Point, Study
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.runs.pump.data import GAPS
 from swashfilm.runs.pump.run import PumpCase, solve_pump
+from swashfilm.runs.table.summary import table_of
+from system.points.table.store import table_name
+from system.pump.operating import operating_point
 from system.pump_file.file import resolved_toml
 
 KEY_LENGTH = 24
@@ -33,8 +36,9 @@ class PumpStudy(Study[PumpCase]):
 
 
 def pump_digest(case: PumpCase) -> str:
-    """Return a name of all inputs of a case's numbers."""
-    table = case.table.read_bytes() if case.table else None
+    """Return a name of all inputs of a case's numbers; raise InputFaults where no response table fits it."""
+    by_table = case.fidelity is Fidelity.TABLE
+    table = table_name(table_of(case.own or case.pump, operating_point(case.pump), case.table)) if by_table else None
     made_by = "pump study", version("swashfilm"), case.fidelity.value, case.options, table
     return content_key(*made_by, resolved_toml(case.pump), case.pump.file_contents)[:KEY_LENGTH]
 
