@@ -19,6 +19,7 @@ from reynolds.numerics.arrays import Array
 
 KNOTS = 4096
 THINNEST = 1e-4  # standard deviations: the first knot where nothing touches, since laws of rough walls end above zero
+WITHIN = 1.0 - 1e-12  # of the deepest contact: round-off of the first knot does not lead beyond its law
 MIDDLE = 12.0  # standard deviations above the first knot: half of the knots lie below
 FILM, CONDUCTION, CONTENT, SHEAR, CONTACT = range(5)
 """Columns: film less gap, m; pressure flow factor; mean thickness less film, m; sigma phi_s/2, m; contact, Pa."""
@@ -57,7 +58,7 @@ def gap_table(surface: Surface | None, asperities: Asperities | None, *, elastic
     sigma = 0.0 if surface is None else surface.composite_roughness
     start = THINNEST * sigma
     if asperities is not None:
-        start = asperities.summit_height + LOWEST_RATIO * asperities.height
+        start = asperities.summit_height + WITHIN * LOWEST_RATIO * asperities.height
         sigma = max(sigma, asperities.height)
     share = np.arange(KNOTS) / KNOTS
     middle = MIDDLE * sigma

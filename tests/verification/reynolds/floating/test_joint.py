@@ -6,7 +6,7 @@ and without cavity, contact, pocket, inertia and oil under pressure.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -186,3 +186,11 @@ def test_table_of_the_gap(surface, asperities, elastic):
         pressed = contact_pressure(asperities, gap)
         np.testing.assert_allclose(c.contact, pressed.value, atol=1e-9 * pressed.value.max())
         np.testing.assert_allclose(c.contact_slope, pressed.slope, atol=1e-8 * np.abs(pressed.slope).max())
+
+
+@pytest.mark.parametrize("summits", [0.0, 0.7, 5.0])
+def test_a_table_begins_within_the_law_of_contact(summits):
+    """Of any height of the asperities, and of their summits over the walls: the compiled film takes all of them."""
+    for height in np.linspace(1e-7, 2e-6, 191):
+        table = gap_table(None, replace(SUMMITS, height=height, summit_height=summits * height), elastic=False)
+        assert table.start == pytest.approx((summits + LOWEST_RATIO) * height, rel=1e-11)
