@@ -25,6 +25,7 @@ HALF_WAY = 0.5
 """Centre of inlet_share where it is uncertain: between films as warm as the case and films of the inlet's oil."""
 CONCENTRIC = 0.05
 """Eccentricity ratio below which a piston leaks as a concentric one, within .4 %."""
+DISPLACEMENT = "displacement"
 GUIDE, BEARINGS = "ball_guide_retainer", ("front_bearing", "rear_bearing")
 _THICKNESS = {
     Gap.PISTON: ("piston", "radial_clearance"),
@@ -51,7 +52,7 @@ BASE_NAMES = frozenset(
     {
         *(f"film_thickness.{gap.value}" for gap in Gap),
         *(f"friction.{pair}" for pair in FRICTION_PAIRS),
-        "eccentricity_ratio", "bulk_modulus", "viscosity", "viscosity_slope", "displacement", "dead_volume",
+        "eccentricity_ratio", "bulk_modulus", "viscosity", "viscosity_slope", DISPLACEMENT, "dead_volume",
         "flow_coefficient", "stand_out_share", *FILM_WARMTH, *GROOVE_NAMES,
     }
 )  # fmt: skip
@@ -73,7 +74,7 @@ def base_parameters(pump: PumpDescription, tolerances: Tolerances) -> tuple[Para
         _eccentricity(pump.piston.eccentricity_ratio, tolerances.eccentricity_ratio),
         *_fluid(pump, tolerances),
         *_frictions(pump, tolerances),
-        _absolute("displacement", 1.0, tolerances.displacement, 0.5, 1.5),
+        _absolute(DISPLACEMENT, 1.0, tolerances.displacement, 0.5, 1.5),
         replace(_relative("dead_volume", pump.pump.dead_volume, tolerances.dead_volume, Dimension.VOLUME), power=1.0),
         _relative(
             "flow_coefficient",
@@ -121,10 +122,10 @@ def pump_with(pump: PumpDescription, values: Mapping[str, float]) -> PumpDescrip
     for pair in FRICTION_PAIRS:
         _set(changed, pump, "friction", pair, values.get(f"friction.{pair}"))
     _set(changed, pump, "pump", "dead_volume", values.get("dead_volume"))
-    factor = values.get("displacement", 1.0)
+    factor = values.get(DISPLACEMENT, 1.0)
     _set(changed, pump, "pump", "swash_angle_max", _swash_angle(pump, factor))
     if pump.pump.displacement is not None:
-        _set(changed, pump, "pump", "displacement", factor * pump.pump.displacement)
+        _set(changed, pump, "pump", DISPLACEMENT, factor * pump.pump.displacement)
     _set(changed, pump, "ports", "flow_coefficient", values.get("flow_coefficient"))
     _set(changed, pump, "oil", "bulk_modulus", values.get("bulk_modulus"))
     thicker, slope = values.get("viscosity", 1.0), values.get("viscosity_slope", 0.0)

@@ -57,6 +57,17 @@ class Extension:
         """The law's values by its own keys, as a pump file's table states them, of parameters by name."""
         return {**self.grid[0], **{_key(one): values[one.name] for one in self.free if one.name in values}}
 
+    def stated_beside(self, own: Values, values: Mapping[str, float]) -> dict[str, float]:
+        """`stated`, each size added to that of a table `own` whose law acts too, within the size's bounds.
+
+        The sum of two laws at once: exact where their changes add, else to first order in the sizes.
+        """
+        table = self.stated(values)
+        for one in self.parameters:
+            if (key := _key(one)) in own:
+                table[key] = min(max(own[key] + table.get(key, 0.0), one.lower), one.upper)
+        return table
+
     def _scales_about(self, member: Values) -> tuple[Parameter, ...]:
         return tuple(replace(one, centre=member[_key(one)]) for one in self.scales)
 

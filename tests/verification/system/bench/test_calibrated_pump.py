@@ -92,6 +92,24 @@ def test_its_tolerance_is_what_the_fit_leaves() -> None:
     assert pump.tolerance.viscosity == pytest.approx(sigma["viscosity"], rel=1e-9)
 
 
+@pytest.mark.parametrize(
+    ("name", "xi"), [("eccentricity_ratio", 2.0), ("eccentricity_ratio", -1.5), ("displacement", 40.0)]
+)
+def test_a_tolerance_is_that_of_the_value_in_the_file(name, xi) -> None:
+    """Far from the stated value: of an eccentricity, fitted by its square, and of a factor on the displacement."""
+    fit = _fit()
+    at = fit.index(name)
+    parameter = fit.parameters[at]
+    moved = replace(fit, xi=np.where(np.arange(fit.xi.size) == at, xi, fit.xi))
+    moved = replace(moved, values=np.where(np.arange(fit.xi.size) == at, parameter.value(xi), fit.values))
+    width = np.sqrt(fit.covariance[at, at])
+    lower, upper = (parameter.value(xi + side * 1e-4 * width) for side in (-1.0, 1.0))
+    expected = (upper - lower) / 2e-4
+    if name == "displacement":
+        expected /= parameter.value(xi)
+    assert getattr(calibrated_pump(PUMP, moved).tolerance, name) == pytest.approx(expected, rel=1e-6)
+
+
 def test_a_value_at_a_bound_keeps_its_tolerance() -> None:
     """Its sigma, of the slope at the bound, says nothing."""
     fit = _fit()

@@ -206,6 +206,32 @@ def test_a_table_states_one_form_of_a_law(table, keys):
         load_pump("ref90", stated)
 
 
+@pytest.mark.parametrize(
+    ("name", "off"),
+    [
+        ("churning.factor", 1e-9),
+        ("port_short_circuit.area", 1e-9),
+        ("viscosity_pressure.coefficient", 0.1),
+        ("elastic_opening.slipper.opening", 0.2),
+    ],
+)
+def test_a_size_found_beside_a_stated_one_adds_to_it(name, off):
+    """A fit has the pump's own law and a second one: its pump runs to its readings, to first order in the sizes."""
+    extension = next(one for one in EXTENSIONS if one.parameters[0].name == name)
+    pump, law = with_effect(extension, 0.5), extension.members[-1]
+    bench = LumpedBench(pump, POINTS, SIMULATED, (), (law,))
+    found = {one.name: one.value(0.0) for one in bench.parameters}
+    none, both = (bench.predict(np.array([*{**found, name: size}.values()])) for size in (0.0, found_size(extension)))
+    file = LumpedBench(extended_pump(pump, {**found, name: found_size(extension)}, [law]), POINTS, SIMULATED, ())
+    missed = np.abs(file.predict(np.zeros(0)) - both)
+    assert np.all(missed <= 1e-12 + off * np.abs(both - none).max(axis=0))
+
+
+def found_size(extension: Extension) -> float:
+    """A quarter of the spread of an effect's first size."""
+    return extension.parameters[0].value(0.25)
+
+
 def test_a_pump_has_one_coefficient_of_barus():
     stated = {"oil.pressure_viscosity": "20 1/GPa"}
     thick = next(one for one in EXTENSIONS if one.id is EffectId.VISCOSITY_PRESSURE)
