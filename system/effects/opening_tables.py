@@ -68,8 +68,8 @@ class OpeningCase:
         """Name of the content of a pressure (1,)."""
         point = replace(self.pump.operating, **dict.fromkeys(VARIED, 0.0))
         bare = replace(self.pump, name="", physics=PhysicsSection(), operating=point)
-        meshes = [body.mesh.content for body in self.pump.bodies]
-        return content_key("opening of a film", TABLE_FORMAT, resolved_toml(bare), meshes, self.gap.value, FINER, x)
+        files = [content for content in self.pump.file_contents if content]
+        return content_key("opening of a film", TABLE_FORMAT, resolved_toml(bare), files, self.gap.value, FINER, x)
 
     def solve(self, x: Array) -> Array:
         """Leakage and shear (2,) between elastic over those between rigid walls at a pressure (1,)."""

@@ -158,7 +158,8 @@ class PaperWork:
     def key(self, part: Place) -> str:
         """Name of all inputs of the point's numbers."""
         stated = sorted(FloatingSolver(self.options).stated.items()) if self.fidelity is PaperFidelity.FLOATING else ()
-        return content_key(POINT_FORMAT, self.fidelity, resolved_toml(self.pump), part, stated)[:KEY_LENGTH]
+        files = filter(None, self.pump.file_contents)
+        return content_key(POINT_FORMAT, self.fidelity, resolved_toml(self.pump), part, stated, *files)[:KEY_LENGTH]
 
     def solve(self, part: Place) -> Record:
         """The point as JSON; raises as the fidelity."""

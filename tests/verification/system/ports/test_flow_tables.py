@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import pickle
+import tomllib
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from system import load_pump, lumped_point, operating_point, resolved_toml
+from system import Gap, load_pump, lumped_point, operating_point, resolved_toml
+from system.effects.opening_tables import OpeningCase
 from system.inputs.coefficients.flow_files import FlowCoefficients
+from system.paper.points import PRESSURES, RATED, PaperFidelity, PaperWork, Place
 from system.pump.ports.areas import FLOW_FROM, PORT_SIZE, as_array, orifice, orifice_coefficients
 from system.pump.ports.flow_coefficients import (
     MOST_OPENINGS,
@@ -117,8 +120,6 @@ def law_rows(law: PlainLaw, factor=1.0):
 
 
 def pump_with(file: Path | None, **stated):
-    import tomllib
-
     tables = tomllib.loads(resolved_toml(load_pump("ref90")))
     if file is not None:
         del tables["ports"]["flow_coefficient"], tables["ports"]["critical_reynolds"]
@@ -168,8 +169,6 @@ def test_a_port_without_a_file_carries_no_table():
 def test_a_resolved_pump_keeps_its_file(tmp_path):
     law = PlainLaw(0.65, 10.0)
     pump = pump_with(written(tmp_path / "own.csv", law_rows(law)))
-    import tomllib
-
     again = pump_of_tables("again", tomllib.loads(resolved_toml(pump)))
     assert again == pump
     assert hash(again) == hash(pump)
@@ -177,6 +176,20 @@ def test_a_resolved_pump_keeps_its_file(tmp_path):
     other = pump_of_tables("other", tomllib.loads(resolved_toml(pump)))
     assert other != pump
     assert other.file_contents != pump.file_contents
+
+
+def test_kept_results_know_the_content_of_a_file(tmp_path):
+    """The same resolved pump file, other coefficients under its path: other points of the paper, other films."""
+    read = []
+    for factor in (1.0, 0.9):
+        orifice_file = written(tmp_path / "bore.csv", law_rows(PlainLaw(0.65, 10.0), factor))
+        tables = tomllib.loads(resolved_toml(load_pump("ref90")))
+        tables["slipper"]["orifice_file"] = str(orifice_file)
+        read.append(pump_of_tables("made", tables))
+    assert resolved_toml(read[0]) == resolved_toml(read[1])
+    place = Place(RATED, PRESSURES[-1], 1.0)
+    assert len({PaperWork(pump, PaperFidelity.FIXED).key(place) for pump in read}) == 2
+    assert len({OpeningCase(pump, Gap.SLIPPER).key(np.array([20e6])) for pump in read}) == 2
 
 
 def test_a_loaded_pump_needs_its_file_no_more(tmp_path):
