@@ -152,8 +152,12 @@ def _blend(parts: Sequence[tuple[float, GapState]]) -> GapState:
 
 
 def _between(lumped: GapState, solved: GapState, courses: Courses) -> Effects:
-    """Changes from the lumped law's gaps to the solved ones."""
+    """Changes from the lumped law's gaps to the solved ones.
+
+    Contact of a pair without Coulomb friction by the law (a coefficient of 0) is added.
+    """
     gaps, extra = slice(len(GAPS)), unchanged(courses).extra_coulomb
+    extra[gaps] = np.where(lumped.coulomb[gaps] > 0.0, 0.0, solved.coulomb[gaps])
     extra[SOCKET] = solved.coulomb[-1] - lumped.coulomb[-1]
     delivery, suction = solved.draws - lumped.draws
     return replace(

@@ -38,7 +38,7 @@ def places(tables):
     return np.concatenate([tables[0.1].response.learnt.points[-4:], tables[0.1].response.held_out.points])
 
 
-def bench(places, law) -> LumpedBench:
+def bench(places, law, pump=PUMP) -> LumpedBench:
     points = [point_at(case(0.1), x) for x in places]
 
     def column(name):
@@ -51,7 +51,7 @@ def bench(places, law) -> LumpedBench:
         T_in=warm, T_case=warm, hours=np.zeros(len(points)), order=np.arange(len(points), dtype=float),
         warming=np.zeros(len(points)),
     )  # fmt: skip
-    return LumpedBench(films_alone(PUMP), map_points, SIMULATED, (), samples_per_pitch=40, own_laws=((law, {}),))
+    return LumpedBench(films_alone(pump), map_points, SIMULATED, (), samples_per_pitch=40, own_laws=((law, {}),))
 
 
 def readings(places, law, shares=None):
@@ -72,6 +72,22 @@ def test_a_bench_reads_what_runs_by_table_give(tables, places):
     expected = by_table(places, tables[0.1])
     assert told[:, [0, 1, 3]] == pytest.approx(expected[:, [0, 1, 3]], rel=2e-4)
     assert told[:, 2] == pytest.approx(expected[:, 2], rel=2e-3)
+
+
+def test_contact_remains_without_a_coefficient(tables, places):
+    """Two fifths of the slippers' loss is contact by the table, [friction] has none: the bench's torque has it too."""
+    pump = replace(PUMP, friction=replace(PUMP.friction, slipper_swash_plate=0.0))
+    table = tables[0.0]
+    names, learnt = [one.name for one in table.response.outputs], table.response.learnt
+    values = learnt.values.copy()
+    values[:, names.index("slipper.contact_share")] = 0.4
+    rubbed = replace(table, response=replace(table.response, learnt=replace(learnt, values=values)))
+    expected = [table_point(pump, point_at(case(0.0), x), rubbed).pump_point for x in places]
+    law = SolvedFilms(films_alone(pump), rubbed)
+    told = bench(places, law, pump).predict(np.zeros(0))[:, 3]
+    contact = np.array([one.pairs.slipper_swash_plate.mean_coulomb / one.point.shaft_speed for one in expected])
+    assert contact.min() > 0.4
+    assert told == pytest.approx([one.bench.shaft_torque for one in expected], rel=2e-4)
 
 
 def test_shares_lead_from_table_to_table(tables, places):
