@@ -2,11 +2,31 @@
 
 # mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
 
+import numpy as np
 from numba import njit
 
 from reynolds.fem.kernels import _inverse_map
 
 _FAST = {"cache": True, "fastmath": {"contract"}, "error_model": "numpy"}
+
+
+@njit(**_FAST)
+def part(edges, first, shape, near):
+    """Number cells whose edges differ by more than `near` m from those of the cell first[shape] anew; such cells.
+
+    edges (cells, n) m; each such cell has a shape of its own, after all others.
+    """
+    own, count = np.empty(len(edges), np.int64), 0
+    for e in range(len(edges)):
+        like = first[shape[e]]
+        for k in range(edges.shape[1]):
+            if abs(edges[e, k] - edges[like, k]) > near:
+                own[count] = e
+                count += 1
+                break
+    for k in range(count):
+        shape[own[k]] = len(first) + k
+    return own[:count]
 
 
 @njit(**_FAST)

@@ -10,10 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reynolds.fem import element_tensor_kernels as kernels
+from reynolds.numerics.array_kernels import largest
 from reynolds.numerics.arrays import Array
 
 PARALLEL = 1e-6  # of a cell's size, by which opposite sides may differ
-SAME = 1e-10  # of a cell's size: corners nearer than this are at the same place of its shape
+SAME = 1e-10  # of the largest cell: corners nearer than this are at the same place of a shape
 
 
 @dataclass(frozen=True)
@@ -86,8 +87,9 @@ def _parallel(corners: Array) -> Array:
 def _shapes(corners: Array) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
     """Number of each cell's shape (cells,), and a cell of each shape."""
     edges = (corners[:, 1:] - corners[:, :1]).reshape(len(corners), -1)
-    size = np.abs(edges).max()
-    # One number a shape: a fixed combination of its edges, rounded; equal for two shapes with a chance of 1e-10.
-    key = np.rint(edges / (SAME * size)) @ np.sqrt(np.arange(2.0, 2.0 + edges.shape[1]))
+    near = SAME * largest(edges.ravel())
+    # One number a shape: a fixed combination of its edges, rounded. Of many cells some have it by chance.
+    key = np.rint(edges / near) @ np.sqrt(np.arange(2.0, 2.0 + edges.shape[1]))
     _, first, shape = np.unique(np.rint(key), return_index=True, return_inverse=True)
-    return shape.astype(np.int32), first
+    own = kernels.part(edges, first, shape, near)
+    return shape.astype(np.int32), np.concatenate([first, own])

@@ -7,8 +7,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import skfem
+from scipy.spatial import Delaunay
 
-from reynolds import Cavitation, Cell, FilmProblem, FilmSpace, Held, annulus, film, film_space, rectangle
+from reynolds import Cavitation, Cell, FilmMesh, FilmProblem, FilmSpace, Held, annulus, film, film_space, rectangle
 from reynolds.equation.balance import FilmState, Operators, operators, steep_gradient
 from reynolds.equation.hourglass import saved_heat
 
@@ -74,3 +76,15 @@ def test_lumped_fields_keep_their_integral(kind):
     field = 1.0 + x / SIZE[0] + 2.0 * y / SIZE[1]
     assert space.lumped(field).sum() == pytest.approx(np.sum(field * space.area), rel=1e-13)
     assert space.lumped(np.full((1, 1), 2.0)) == pytest.approx(space.lumped(np.full(space.area.shape, 2.0)))
+
+
+def test_every_triangle_of_a_large_graded_mesh_has_its_own_tensors():
+    """60 000 triangles that grow from 1 um to 1 mm: the slope of x by the tensors is one in each."""
+    rng, count = np.random.default_rng(0), 30_000
+    places = 10.0 ** rng.uniform(-5.0, -2.0, count) * np.exp(2j * np.pi * rng.random(count))
+    points = np.array([places.real, places.imag])
+    cells = np.ascontiguousarray(Delaunay(points.T).simplices.T)
+    space = film_space(FilmMesh(skfem.MeshTri(points, cells)))
+    slopes = space.tensors.gradient[space.tensors.shape, :, :, 0] / space.area[:, :, None]
+    along = np.einsum("cpi,ci->cp", slopes, space.vertices[space.cells][:, :, 0])
+    np.testing.assert_allclose(along, 1.0, rtol=1e-9)
