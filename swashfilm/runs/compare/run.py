@@ -118,12 +118,12 @@ def run_compare(both: Sides, cycle: Cycle | None, folder: Path) -> dict[str, Any
         "given": [side.given for side in both],
         "pumps": [side.data.name for side in both],
         "solvers": [side.data.words for side in both],
-        "warnings": [*fidelity_warnings(both), *_rating_warnings(found, names, cycle)],
+        "warnings": [*fidelity_warnings(both), *error_warnings(found, both), *_rating_warnings(found, names, cycle)],
         "box": [
             {"words": axis.input.words, "from": axis.input.text(axis.values[0]), "to": axis.input.text(axis.values[-1])}
             for axis in found.one.axes
         ],
-        "same_levels": found.one.axes == both[0].data.axes == both[1].data.axes,
+        "same_levels": _same_levels(found, both),
         "differences": [_row(one) for one in found.differences],
         "displacement_m3_per_rev": [_displacement(data) for data in (found.one, found.other)],
         "specific": [_row(one) for one in found.specific],
@@ -146,6 +146,22 @@ def fidelity_warnings(both: Sides) -> Iterator[str]:
             f"fidelities_differ: A is {one}, B is {other} (limit: one fidelity for both): differences contain those "
             "between the fidelities, not only the pumps; solve both maps by one fidelity"
         )
+
+
+def error_warnings(found: MapComparison, both: Sides) -> Iterator[str]:
+    """Yield a warning of maps whose unknown error between levels has no part in the errors told."""
+    unknown = [letter for letter, side in zip("AB", both, strict=True) if side.error is None]
+    if unknown and not _same_levels(found, both):
+        yield (
+            f"error_unknown: the error of {' and '.join(unknown)} between levels is not known and counts as zero: "
+            "differences told as more than the error may be those of interpolation; solve both maps at the same "
+            "levels, or with --check 8"
+        )
+
+
+def _same_levels(found: MapComparison, both: Sides) -> bool:
+    """Return True for maps that are compared at their own points."""
+    return found.one.axes == both[0].data.axes == both[1].data.axes
 
 
 def _rating_warnings(found: MapComparison, names: tuple[str, str], cycle: Cycle | None) -> Iterator[str]:

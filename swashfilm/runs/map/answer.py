@@ -108,7 +108,7 @@ def _error_words(data: MapData, error: MapError | None, summary: Mapping[str, An
             f"at {error.count} {error.shown_by}."
         )
     elif data.solved.size > 1:
-        yield "The error between its levels is not known."
+        yield "The error between its levels is not known; fresh points measure it (--check N)."
     if summary["table_error"]:
         worst = max(summary["table_error"].values())
         yield f"Its points come from a response table, which misses solved points by up to {percent(worst)}."

@@ -68,7 +68,11 @@ def add_map_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--table", type=Path, metavar="FILE.json", help="--fidelity table: file of the table")
     command.add_argument("--direct", action="store_true", help="--fidelity fixed, floating: solve each point, no table")
     add_floating_options(command)
-    command.add_argument("--check", metavar="N", help="fresh points that measure the error between levels (40)")
+    command.add_argument(
+        "--check", metavar="N",
+        help="fresh points that measure the error between levels (40; where each solves films 8 beside an axis of two "
+        "levels, else 0)",
+    )  # fmt: skip
     command.add_argument("--workers", metavar="N", help="processes that solve points side by side (all cores)")
     command.add_argument("--cluster", metavar="ADDRESS", help="Dask scheduler; its workers solve points")
     command.add_argument("--resume", type=Path, metavar="DIR", help="run folder with points of this run")

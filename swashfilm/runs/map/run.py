@@ -37,8 +37,8 @@ POINT_COST = {Fidelity.FIXED: 2.0, Fidelity.FLOATING: 100.0}
 """Approximate processor time of a point whose films are solved, s (`swashfilm map ref90 --direct`)."""
 CLOSED_COST = {Fidelity.LUMPED: LumpedSolver.cost, Fidelity.TABLE: TableSolver.cost}
 """The same of a point without solved films."""
-CHEAP = 0.1
-"""Seconds per point up to which fresh points are checked by default."""
+FEW_CHECKED = 8
+"""Number of fresh points of a map whose points cost much, where an axis has two levels alone."""
 START = 4.0
 """Seconds to start another process: each one must have more work."""
 ROW = 7
@@ -63,7 +63,19 @@ class MapCase:
     @property
     def cost(self) -> float:
         """Approximate processor time, s."""
-        return self.point_seconds * (sum(self.table_points) if self.by_table else self.plan.size)
+        return self.point_seconds * (sum(self.table_points) if self.by_table else self.plan.size + self.fresh)
+
+    @property
+    def fresh(self) -> int:
+        """Number of fresh points that measure the error between levels: as stated, or many where they cost little.
+
+        Else few where an axis has two levels, which do not measure it, and none where the levels themselves do.
+        """
+        if self.checks is not None:
+            return self.checks
+        if self.by_table or self.fidelity in CLOSED_COST:
+            return CHECKED
+        return FEW_CHECKED if any(len(axis.values) == 2 for axis in self.plan.axes) else 0
 
     @property
     def point_seconds(self) -> float:
@@ -118,8 +130,7 @@ def solve_map(asked: MapCase, folder: Path, executor: Executor, report: Report) 
     write_new(folder / "resolved.toml", "pump", resolved_toml(plan.pump))
     solver = _solver(asked, executor, report)
     work = MapWork(plan.pump, solver)
-    count = (CHECKED if solver.cost <= CHEAP else 0) if asked.checks is None else asked.checks
-    fresh, size = check_points(plan, count), plan.size
+    fresh, size = check_points(plan, asked.fresh), plan.size
     kept = _solved(work, (*plan.points, *fresh), asked.resume, folder, executor, report)
     report(len(kept.outcomes), len(kept.outcomes), "writing the map and its pictures")
     data = map_data(plan, solver.words, kept.outcomes[:size])

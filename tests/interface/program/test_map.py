@@ -16,6 +16,7 @@ from bench_pump import BENCH
 import swashfilm as sf
 from reynolds import NotConverged
 from swashfilm.__main__ import main
+from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.levels import map_axis
 from swashfilm.output.warnings import Grade, causes
 from swashfilm.runs.compare.run import Side, fidelity_warnings
@@ -23,9 +24,10 @@ from swashfilm.runs.map.contour_levels import efficiency_levels
 from swashfilm.runs.map.duty.cycle_file import read_cycle
 from swashfilm.runs.map.files import read_map
 from swashfilm.runs.map.page import best_rows
-from system import Fault
+from swashfilm.runs.map.run import MapCase
+from system import Fault, load_pump
 from system.maps import point as map_point
-from system.maps.plan import MapInput
+from system.maps.plan import MapAxis, MapInput, map_plan
 
 SMALL = [
     "--fidelity", "lumped", "--speeds", "1000..2000rpm:3", "--pressures", "10,20,30MPa",
@@ -369,6 +371,36 @@ def test_a_map_beside_itself_is_no_difference(run, tmp_path):
         tmp_path / "cmp" / "report.html"
     ).read_text("utf-8")
     assert main(["compare", str(run), str(run), "--fidelity", "fixed"]) == 2
+
+
+def test_an_unknown_error_between_levels_is_told(run, tmp_path):
+    """Maps of other levels whose error nothing measures: the errors told lack it; at the same levels it has no part."""
+    one, other = (
+        (*SMALL[:2], "--speeds", speeds, *SMALL[4:-1], "0") for speeds in ("1000rpm,2000rpm", "1000rpm,1800rpm")
+    )
+    for letter, words in zip("ab", (one, other), strict=True):
+        assert main(["map", str(BENCH), *words, "-o", str(tmp_path / letter)]) == 0
+    assert "not known" in (tmp_path / "a" / "report.html").read_text("utf-8")
+    told = []
+    for beside in ("b", "a"):
+        assert main(["compare", str(tmp_path / "a"), str(tmp_path / beside), "-o", str(tmp_path / f"a{beside}")]) == 0
+        told.append(json.loads((tmp_path / f"a{beside}" / "summary.json").read_text("utf-8"))["warnings"])
+    (warning,), none = told
+    assert warning.startswith("error_unknown: the error of A and B between levels is not known")
+    assert none == []
+    cycle = tmp_path / "cycle.csv"
+    cycle.write_text("time [s],speed [rpm],pressure [bar],displacement ratio [1]\n0,1500,250,1\n9,1500,250,1\n")
+    assert main(["duty", str(tmp_path / "a"), str(cycle), "-o", str(tmp_path / "duty")]) == 2
+
+
+@pytest.mark.parametrize(
+    ("levels", "checks", "fresh"), [((1000.0, 2000.0), None, 8), ((1e3, 2e3, 3e3), None, 0), ((1e3, 2e3), 2, 2)]
+)
+def test_a_map_of_films_with_two_levels_is_checked_at_fresh_points(levels, checks, fresh):
+    plan = map_plan(load_pump("ref90"), (MapAxis(MapInput.SPEED, levels),))
+    found = MapCase(plan, Fidelity.FIXED, direct=True, checks=checks)
+    assert found.fresh == fresh
+    assert found.cost == 2.0 * (len(levels) + fresh)
 
 
 def test_maps_of_unlike_fidelities_get_a_named_warning(run):

@@ -212,6 +212,14 @@ def test_between_levels_the_stated_error_holds():
         interpolant.at({MapInput.SPEED: 1400 * RPM, MapInput.PRESSURE: 45e6, MapInput.RATIO: 0.75})
 
 
+@pytest.mark.parametrize("speeds", [(1000.0, 2000.0), (1000.0, 1500.0, 2000.0)])
+def test_levels_left_out_measure_no_axis_of_two_levels(speeds):
+    """Along two levels nothing is left out: the error of the other axes alone would be no bound."""
+    axis = MapAxis(MapInput.SPEED, tuple(RPM * speed for speed in speeds))
+    error = left_out_error(solved((axis, MapAxis(MapInput.PRESSURE, (10e6, 20e6, 30e6)))))
+    assert (error is None) == (len(speeds) == 2)
+
+
 def cycle_of(time, speed, pressure, ratio):
     inputs = (MapInput.SPEED, MapInput.PRESSURE, MapInput.RATIO)
     values = (np.array(speed, float), np.array(pressure, float), np.array(ratio, float))
