@@ -56,7 +56,8 @@ def table_point(pump: PumpDescription, point: OperatingPoint, table: ResponseTab
 
     The pump is the table's own, of any dimensions in the box. Raises InputError outside the box or at another inlet or
     case pressure, NotConverged as `ported_cycle` and where an orifice line does not converge, ValueError where chambers
-    differ. Effects of [physics] that the table's films have not solved act by their laws.
+    differ. Effects of [physics] that the table's films have not solved act by their laws; pressure that the inlet loses
+    ahead of the suction port acts on the films as it does on the lumped law, the reference of the table's ratios.
     """
     kinds(pump).hold_alike()
     own = closed_laws(pump, floating=table.origin.source is Source.FLOATING)
@@ -65,7 +66,7 @@ def table_point(pump: PumpDescription, point: OperatingPoint, table: ResponseTab
     motion, lines, pistons = piston_motion(pump, left), port_lines(pump, left), pump.pump.pistons
     asked = left
     for _ in range(ROUND_LIMIT):
-        means = table.at(pump, asked)
+        means = table.at(pump, replace(asked, inlet_pressure=point.inlet_pressure))
         problem = affected_problem(pump, left, motion, _leaks(pump, asked, motion, means), effects)
         draws = port_draws(pump, asked, means)
         none = GapExchange(Gaps(0.0, 0.0, 0.0), draws.delivery, draws.suction)

@@ -212,13 +212,14 @@ def test_a_table_is_found_by_its_pump(table, folder, tmp_path):
 
 
 def test_effects_outside_the_films_act_beside_a_table(table, folder):
-    """The plain pump's table serves: drain, drag, stroke, ports and a boundary layer change all as in a direct run."""
+    """The plain pump's table serves: drain, drag, stroke, ports, inlet and a boundary layer change as in a direct run."""
     tables = {
         "control_flow": {"area": 2e-7, "laminar": 0.5},
         "churning": {"factor": 1.0},
         "swash_droop": {"rate": 5e-11, "play": 1e-3},
         "notch_erosion": {"advance": 0.02, "widening": 0.3},
         "mixed_friction": {"piston": 0.05, "hersey_scale": 1e-6},
+        "incomplete_filling": {"inlet_loss": 3.0, "laminar": 0.3},
     }
     pump = replace(PUMP, physics=section_of(PhysicsSection, tables))
     point = point_at(case(), table.response.learnt.points[20])
@@ -229,6 +230,8 @@ def test_effects_outside_the_films_act_beside_a_table(table, folder):
     drains = [one.bench.drain_flow - plain.bench.drain_flow for one in (told, direct)]
     assert drains[0] == pytest.approx(drains[1], rel=0.01)
     assert drains[0] > 1e-5
+    assert direct.suction.mean_pressure < point.inlet_pressure - 1e3
+    assert told.suction.mean_pressure == pytest.approx(direct.suction.mean_pressure, rel=1e-9)
     assert told.checks.energy_balance_error < 1e-3
 
 
