@@ -1,6 +1,7 @@
 """Conductances of the film of a part that stands still: pressure flow between walls at rest, without cavitation.
 
-Thickness and viscosity are those under the film's pressure, so that flows are linear in the pressures.
+Thickness and viscosity are those under the film's pressure, so that flows are linear in the pressures; walls are as
+rough as those of the film.
 """
 
 from collections.abc import Mapping
@@ -26,7 +27,7 @@ def walls_at_rest(
         problem.film, viscosity=solution.film.viscosity, velocity_moving=(ZERO, ZERO), velocity_fixed=(ZERO, ZERO),
         squeeze=ZERO,
     )  # fmt: skip
-    return FilmProblem(problem.space, still, boundary, Cavitation.NONE, held_nodes=held_nodes)
+    return FilmProblem(problem.space, still, boundary, Cavitation.NONE, held_nodes=held_nodes, surface=problem.surface)
 
 
 def piston_conductance(solver: FilmSolver, stage: FloatingStage) -> float:

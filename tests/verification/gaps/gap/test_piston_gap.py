@@ -10,12 +10,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps import GapFilm, PistonDrive, PistonFilm, PistonShape, Profile, constant, standing_piston
+from gaps import FilmLaws, GapFilm, PistonDrive, PistonFilm, PistonShape, Profile, constant, standing_piston
 from gaps.loads.ball_joint import lateral_force
 from gaps.shapes.profiles import Barrel
 from gaps.standing.conductances import piston_conductance
 from gaps.standing.gap_film import rest_from, standing_piston_film
-from reynolds import Array, FilmNotConverged, FilmSolver, FloatingStage, held_at
+from reynolds import Array, FilmNotConverged, FilmSolver, FloatingStage, Surface, held_at
 from system.films.positions import eccentric
 
 RADIUS, CLEARANCE = 11e-3, 15e-6
@@ -94,6 +94,18 @@ def test_leakage_of_a_parallel_piston(ratio, validation, refine):
         tolerance=chamber.tolerance(),
         order=chamber.order,
     )
+
+
+def test_rough_walls_conduct_what_they_leak():
+    """In a centred film of three deviations Patir and Cheng's factor is 1 - 0.9 exp(-0.56 x 3)."""
+    film = PistonFilm(SHAPE, drive(), FilmLaws(surface=Surface(CLEARANCE / 3.0, 0.0)), cells=CELLS)
+    solver = FilmSolver(film.space_at(0.0))
+    stage = held_at(solver, standing_piston(film), 0.0, np.zeros(4))
+    conductance = piston_conductance(solver, stage)
+    smooth = np.pi * 22e-3 * CLEARANCE**3 / (12.0 * VISCOSITY * LENGTH)
+    assert conductance == pytest.approx((1.0 - 0.9 * np.exp(-0.56 * 3.0)) * smooth, rel=1e-12)
+    leaked = standing_piston_film(film, stage).chamber_flow
+    assert leaked == pytest.approx(conductance * (PRESSURE - 1e6), rel=1e-12)
 
 
 @pytest.mark.parametrize("ratio", [0.0, 0.6])
