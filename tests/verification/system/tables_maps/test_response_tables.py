@@ -212,7 +212,7 @@ def test_a_table_is_found_by_its_pump(table, folder, tmp_path):
 
 
 def test_effects_outside_the_films_act_beside_a_table(table, folder):
-    """The plain pump's table serves: drain, drag, stroke, ports, inlet and a boundary layer change as in a direct run."""
+    """The plain pump's table serves: drag, stroke, ports, inlet and a boundary layer act as in a direct run."""
     tables = {
         "control_flow": {"area": 2e-7, "laminar": 0.5},
         "churning": {"factor": 1.0},
