@@ -212,7 +212,7 @@ class PistonFilm:
         walls = self._velocities(stage.time)
         around, along = (part * space.area for part in by.on_moving)
         stresses, velocities = (*by.on_moving, *by.on_fixed), (*walls[0], *walls[1])
-        above = self._above(stage, by.contact, given)
+        above = self._above(stage, by.contact)
         flank = self._flank_force(stage, above, given)
         sheared = sum(float(np.sum(t * u * space.area)) for t, u in zip(stresses, velocities, strict=True))
         return PistonFriction(
@@ -222,10 +222,10 @@ class PistonFilm:
             power=-sheared - flank * float(walls[0][1].item()),
         )
 
-    def _above(self, stage: FloatingStage, contact: Array, given: PistonDeformation | None) -> Array:
-        """Pressure of film and contact above the case's (cells, points) Pa."""
+    def _above(self, stage: FloatingStage, contact: Array) -> Array:
+        """Pressure of film and contact above the case's (cells, points) Pa; that on elastic walls has contact in it."""
         found = evaluate(stage.solution, stage.wall_pressure)[0] - self.drive.case_pressure
-        return np.asarray(found + contact if given is None else found)
+        return np.asarray(found + contact if self._walls is None else found)
 
     def _flank_force(self, stage: FloatingStage, above: Array, given: PistonDeformation | None) -> float:
         """Force (N) out of the block of pressure on the piston's profile and deformation, beside a plain piston's.

@@ -5,16 +5,31 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps import Effect, FilmLaws, Physics, PistonDrive, PistonFilm, PistonShape, constant, floating_piston
+from gaps import (
+    BushingPart,
+    Effect,
+    FilmLaws,
+    Physics,
+    PistonDrive,
+    PistonFilm,
+    PistonPart,
+    PistonShape,
+    constant,
+    floating_piston,
+    standing_piston,
+)
 from gaps.films.friction import WallShear
 from gaps.films.piston import PistonFriction
 from gaps.films.piston_deformation import PistonDeformation
+from gaps.walls.springs import SpringBore
 from reynolds import (
     Asperities,
+    Elastic,
     FilmSolver,
     FloatingStage,
     boundary_flows,
     contact_pressure,
+    held_at,
     loads,
     solve_stage,
     started,
@@ -162,6 +177,21 @@ def test_contact_rubs_against_the_sliding(validation):
     assert found.torque - bare.torque == pytest.approx(-0.1 * pressed * RADIUS * slip[0] / speed, rel=1e-9)
     spent = found.power - bare.power
     assert spent == pytest.approx(0.1 * pressed * speed, rel=1e-9)
+
+
+def test_contact_of_elastic_walls_counts_once():
+    """A piston askew that touches: forces along the bore are those without the deformation, which is next to none."""
+    rough = Asperities(density=1e10, radius=1e-5, height=4e-7, modulus=8e10, friction_coefficient=0.1)
+    rigid, steel = _piston((48, 6), rough), Elastic(210e9, 0.3)
+    parts = PistonPart(DIAMETER, 0.0, 60e-3, steel), BushingPart(DIAMETER, 5e-3, 45e-3, steel)
+    walls = SpringBore(*parts, compliance=1e-19)
+    film = PistonFilm(rigid.shape, rigid.drive, FilmLaws(asperities=rough, walls=walls), Physics(), (48, 6))
+    stage = held_at(FilmSolver(film.space_at(0.0)), standing_piston(film), 0.0, np.array([14.8e-6, 0.0, 13.8e-6, 0.0]))
+    by = film.wall_shear(stage)
+    assert by.load() > 100.0
+    nothing = np.zeros(len(stage.solution.problem.space.vertices))
+    without, given = (film.friction(stage, by, one) for one in (None, PistonDeformation(nothing, nothing, 0.0)))
+    assert without.force == pytest.approx(given.force, rel=1e-12)
 
 
 def _pressed(stage: FloatingStage, rough: Asperities) -> float:
