@@ -49,7 +49,9 @@ class PlateWalls:
     """
 
     parts: tuple[SlipperPart | PlatePart, SlipperPart | PlatePart]
-    _built: list[tuple[FilmSpace, Pose, ElasticWalls]] = field(default_factory=list, compare=False, repr=False)
+    _built: list[tuple[FilmSpace, Pose, ElasticWalls]] = field(
+        init=False, default_factory=list, compare=False, repr=False
+    )
 
     @property
     def alike_around(self) -> bool:
