@@ -189,9 +189,12 @@ def parse_share(text: str) -> float:
     """Return the value of a share, "0.8" or "80%"; raise QuantityError for another text."""
     percent = _PERCENT.fullmatch(text)
     try:
-        return float(Fraction(percent[1]) / 100) if percent else float(text)
+        value = float(Fraction(percent[1]) / 100) if percent else float(text)
     except ValueError:
-        raise QuantityError(repr(text), "a bare number or one in %", with_point(text)) from None
+        value = math.nan
+    if not math.isfinite(value):
+        raise QuantityError(repr(text), "a bare number, or a share in %", with_point(text))
+    return value
 
 
 def with_point(text: str) -> str:

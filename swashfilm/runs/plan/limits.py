@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from diagnosis.next_point.operating_box import BenchBox
 from system.inputs.faults import Fault, nearest_choice
-from system.inputs.units import QuantityError, parse_quantity
+from system.inputs.units import QuantityError, parse_quantity, parse_share
 from system.maps.plan import MapInput
 
 OPTION = "--limit"
@@ -91,8 +91,4 @@ def _nearest(name: str) -> str:
 def _value(text: str, given: MapInput) -> float:
     if given.dimension is not None:
         return parse_quantity(text, given.dimension)
-    number, percent = text.removesuffix("%"), text.endswith("%")
-    try:
-        return float(number) * (0.01 if percent else 1.0)
-    except ValueError:
-        raise QuantityError(repr(text), "a share of the full displacement, such as 0.5 or 50 %") from None
+    return parse_share(text)

@@ -9,7 +9,7 @@ from diagnosis.recording.units import difference_unit
 from system.bench.outputs import SIMULATED
 from system.inputs.channels import ChannelName
 from system.inputs.faults import Fault, nearest_choice
-from system.inputs.units import Dimension, QuantityError, parse_quantity
+from system.inputs.units import Dimension, QuantityError, parse_quantity, parse_share
 
 OPTION, FURTHER = "--sensors", "--further"
 KNOWN = tuple(dict.fromkeys(one.value for one in (*SIMULATED, *WORDS, *ALWAYS)))
@@ -71,9 +71,8 @@ def _state(bench: Bench, channel: ChannelName, text: str, faults: list[Fault]) -
     example = f"a sigma above 0 in {difference_unit(channel)}, such as 0.1 {difference_unit(channel)}{share}"
     try:
         stated = _sigma(channel, text)
-    except (QuantityError, ValueError) as reason:
-        near = reason.nearest if isinstance(reason, QuantityError) else ""
-        faults.append(Fault(OPTION, f"'{channel.value}={text}'", example, near))
+    except QuantityError as reason:
+        faults.append(Fault(OPTION, f"'{channel.value}={text}'", example, reason.nearest))
         return
     if not (stated.sigma or stated.share or 0.0) > 0.0:
         faults.append(Fault(OPTION, f"'{channel.value}={text}'", example))
@@ -82,13 +81,13 @@ def _state(bench: Bench, channel: ChannelName, text: str, faults: list[Fault]) -
 
 
 def _sigma(channel: ChannelName, text: str) -> Stated:
-    """Return a sigma; raises QuantityError or ValueError for a text that is not a sigma."""
+    """Return a sigma; raise QuantityError for a text that is not a sigma."""
     if text.endswith("%") and channel.dimension is not Dimension.TEMPERATURE:
-        return Stated(share=0.01 * float(text.removesuffix("%")))
+        return Stated(share=parse_share(text))
     if channel.dimension is None:
-        return Stated(sigma=float(text))
+        return Stated(sigma=parse_share(text))
     if channel.dimension is Dimension.TEMPERATURE:
         if not text.endswith("K"):
             raise QuantityError(repr(text), "a difference of temperatures in K")
-        return Stated(sigma=float(text.removesuffix("K")))
+        return Stated(sigma=parse_share(text.removesuffix("K")))
     return Stated(sigma=parse_quantity(text, channel.dimension))

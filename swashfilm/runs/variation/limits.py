@@ -6,12 +6,12 @@ import re
 from collections.abc import Sequence
 
 from system.inputs.faults import Fault, nearest_choice
-from system.inputs.units import Dimension, QuantityError, parse_quantity
+from system.inputs.units import Dimension, QuantityError, parse_quantity, parse_share
 from system.variation.measures import EFFICIENCY, MEASURES, Measure
 from system.variation.scatter import Bound, Limit
 
 _LIMIT = re.compile(r"\s*(.+?)\s*(>=|<=)\s*(.+?)\s*")
-_RATE = re.compile(r"\s*([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*(\S+)\s*")
+_RATE = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,2})?)\s*(\S+)\s*")
 _DIMENSIONS = {
     "W": Dimension.POWER,
     "m3/s": Dimension.VOLUME_FLOW,
@@ -82,15 +82,11 @@ def measure_value(text: str, measure: Measure) -> float:
 
 def _share(text: str, measure: Measure) -> float:
     """Return a share; one of a measure that none has above 1 is a percentage whose sign was forgotten."""
-    number, percent = text.removesuffix("%"), text.endswith("%")
-    try:
-        value = float(number)
-    except ValueError:
-        raise QuantityError(repr(text), "a share, such as '88 %'") from None
-    if value > 1.0 and not percent and measure.within_one:
+    value = parse_share(text)
+    if value > 1.0 and "%" not in text and measure.within_one:
         meant = f"{text.strip()} %"
         raise QuantityError(f"{text!r}, {100.0 * value:g} %", f"a share of at most 100 %, such as '{meant}'", meant)
-    return 0.01 * value if percent else value
+    return value
 
 
 def _bare(text: str) -> bool:

@@ -330,6 +330,8 @@ FAULTS = [
         "a least value below",
         "",
     ),
+    (("<= 1.05 start", "<= 1.0.5 start"), "constraints.loss", "a bare number", ""),
+    (('loss = "<= 1.05 start"', 'pressure_rate = "<= 1.2.3 GPa/s"'), "constraints.pressure_rate", "GPa/s", ""),
     (("<= 50 MPa", "<= 50"), "constraints.chamber_pressure_peak", "a value with its unit", "<= 50 MPa"),
     (
         ('loss = "<= 1.05 start"', '"efficiency.overall" = ">= 86"'),

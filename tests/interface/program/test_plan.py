@@ -150,6 +150,7 @@ def test_all_faults_come_at_once(tmp_path: Path, capsys: pytest.CaptureFixture[s
     [
         (["--suspects", "churning"], ("one, 'churning'", "two at least")),
         (["--sensors", "p_out"], ("no meter of what the pump does", "Q_out, Q_in, Q_case, torque")),
+        (["--sensors", "torque=nan%"], ("torque=nan%", "a sigma above 0")),
         (["--sensors", "torque=0.2 bar"], ("torque=0.2 bar", "N m")),
         (["--sensors", "T_case=3 degC"], ("T_case=3 degC", "in K", "sigma above 0")),
         (["--sensors", "Q_out,torque_uncoupled"], ("torque_uncoupled", "torque beside it")),

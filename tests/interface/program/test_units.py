@@ -159,6 +159,12 @@ def test_a_share_may_be_in_percent(text, value):
     assert parse_share(text) == value
 
 
+@pytest.mark.parametrize("text", ["nan", "inf", "1e999", "nan %", "half"])
+def test_a_share_is_a_finite_number(text):
+    with pytest.raises(QuantityError, match="a share in %"):
+        parse_share(text)
+
+
 @pytest.mark.parametrize(
     ("text", "dimension", "meant"),
     [

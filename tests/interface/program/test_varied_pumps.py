@@ -177,6 +177,7 @@ def test_both_as_functions(tmp_path):
         (["tolerance", "--limit", "eficiency >= 88 %"], ["eficiency", "efficiency"]),
         (["tolerance", "--limit", "case drain <= 1.5 bar"], ["not a volume flow"]),
         (["tolerance", "--limit", "efficiency >= much"], ["a share"]),
+        (["tolerance", "--limit", "efficiency >= nan %"], ["'nan %'", "a share"]),
         (["tolerance", "--limit", "88 %"], ["a quantity, >= or <="]),
         (["tolerance", "--limit", "efficiency >= 86"], ["'86', 8600 %", "try:      efficiency >= 86 %"]),
         (["tolerance", "--limit", "least film, slipper >= 1 um"], ["fidelity does not know", "--fidelity floating"]),

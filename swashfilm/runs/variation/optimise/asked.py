@@ -15,7 +15,7 @@ from system.description.pump import PumpDescription
 from system.inputs.faults import Fault, nearest_choice, stated
 from system.inputs.sections.fields import fields_of
 from system.inputs.toml_table import Table
-from system.inputs.units import QuantityError, parse_quantity, reading_unit
+from system.inputs.units import QuantityError, parse_quantity, parse_share, reading_unit
 from system.points.table.response_table import ResponseTable
 from system.variation.measures import MEASURES, Measure
 from system.variation.optimisation.problem import Aim, Constraint, Objective, Varied
@@ -26,7 +26,7 @@ RANGE, WITH = "range", "with"
 RANGE_EXAMPLE = '"0..8 deg", or {range = "0..8 deg", with = ["another.key"]}'
 LIMIT_EXAMPLE = 'a limit, such as "<= 38.5 MPa" or "<= 1.02 start"'
 _LIMIT = re.compile(r"\s*(<=|>=|<|>)\s*(.+?)\s*")
-_START = re.compile(r"(?:([\d.]+)\s*)?start")
+_START = re.compile(r"(.*?)\s*start")
 
 
 def varied_of(top: Table, pump: PumpDescription, known: Mapping[str, PumpKey]) -> tuple[Varied, ...]:
@@ -138,10 +138,7 @@ def _bare(end: object) -> bool:
 def _value(key: PumpKey, raw: object) -> float:
     if key.dimension is not None:
         return parse_quantity(raw.strip() if isinstance(raw, str) else raw, key.dimension)
-    try:
-        return float(str(raw))
-    except ValueError:
-        raise QuantityError(stated(raw), "a number") from None
+    return parse_share(str(raw))
 
 
 def _tied(
@@ -216,9 +213,9 @@ def _constraint(measure: Measure, raw: object) -> Constraint:
         raise QuantityError(stated(raw), LIMIT_EXAMPLE, f"<= {raw}" if isinstance(raw, str) else "")
     bound = Bound.MOST if match[1].startswith("<") else Bound.LEAST
     text = f"{measure.name} {bound.value} {match[2]}"
-    if start := _START.fullmatch(match[2]):
-        return Constraint(measure, bound, 0.0, text, float(start[1] or 1.0))
     try:
+        if start := _START.fullmatch(match[2]):
+            return Constraint(measure, bound, 0.0, text, parse_share(start[1] or "1"))
         return Constraint(measure, bound, measure_value(match[2], measure), text)
     except QuantityError as reason:
         near = f"{bound.value} {reason.nearest}" if reason.nearest else ""
