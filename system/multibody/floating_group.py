@@ -13,7 +13,7 @@ from system.pump.shaft_torque import GroupMasses
 def floating_joint_forces(found: FloatingPoint) -> JointForces:
     """The forces between all parts of a pump with floating gaps; spins of piston and slipper included."""
     pump = found.rotor.pump
-    group = turning_group(pump, found.pump_point.point)
+    group = turning_group(pump, found.rotor.point)  # as the gaps float: the stroke that effects leave
     each = [_loads(kind, group.ball.axis, group.plate_axes) for kind in found.kinds]
     return joined(group, kinds(pump).by_chamber(each), found.pump_point)
 

@@ -24,9 +24,11 @@ from system import (
 from system.description.effects import PhysicsSection
 from system.films.drives import drives, no_rubbing
 from system.inputs.sections.reader import section_of
+from system.multibody.floating_group import floating_joint_forces
 from system.points import floating_gaps
 from system.points.film_effects import closed_laws, effects_in_films, floating_effects
 from system.points.lumped import lumped_point
+from system.pump.laws.directions import plate_axes
 
 STILL = {f"{part}.spin_ratio": 0.0 for part in ("piston", "slipper")}  # free spins take more rounds
 PUMP = load_pump("ref90", {"operating.pressure": "10 MPa", **STILL})
@@ -165,6 +167,19 @@ def test_clearance_and_stroke_are_those_that_effects_leave(plain):
     assert 0.0 < less < 0.05
     falls = 1.0 - found.pump_point.bench.delivery_flow / plain.pump_point.bench.delivery_flow
     assert falls == pytest.approx(less, rel=0.3)
+
+
+@pytest.mark.slow
+def test_forces_between_the_parts_are_those_under_the_plate_that_gives_way():
+    """The plate's normal is that under which the films float: what it has across is the friction of the slippers."""
+    pump = extended({"swash_droop": {"rate": 3e-10, "play": 2.9e-3}})
+    found = floating_point(pump, operating_point(pump), replace(COARSE, finer=0.25))
+    forces = floating_joint_forces(found)
+    assert forces.group.drive.swash_angle == found.rotor.drive.swash_angle
+    group = found.kinds[0].drives.group
+    lift = group.forces.lift + group.held
+    friction = group.plate + lift[:, None] * plate_axes(found.rotor.drive)[2]
+    np.testing.assert_allclose(forces.loads[0].known.rubbing.T, friction, atol=1e-6)
 
 
 @pytest.mark.long
