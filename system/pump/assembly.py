@@ -220,7 +220,7 @@ def pumps(reading: BenchReading) -> bool:
 
 
 def _remarks(asked: OperatingPoint, ported: PortedCycle, reading: BenchReading, leaks: Gaps[float]) -> Iterator[Remark]:
-    yield from _ports_off(asked, ported)
+    yield from _ports_off(asked, ported, reading)
     if not pumps(reading):
         yield _no_delivery(reading, leaks)
     degrees = np.degrees(ported.cycles[0].shaft_angle)
@@ -276,15 +276,19 @@ def _chamber_by(ported: PortedCycle, size: Callable[[ChamberCycle], float]) -> t
     return ported.cycles[number], "the chamber" if len(ported.cycles) == 1 else f"chamber {number + 1}"
 
 
-def _ports_off(asked: OperatingPoint, ported: PortedCycle) -> Iterator[Remark]:
-    """A remark for each port whose line keeps another mean pressure than requested."""
+def _ports_off(asked: OperatingPoint, ported: PortedCycle, reading: BenchReading) -> Iterator[Remark]:
+    """A remark for each port whose line keeps another mean pressure than requested.
+
+    At the inlet by its gauge, ahead of what effects take from it before the suction port.
+    """
     allowed = PORT_PRESSURE_MET * ported.problem.pressure_span
     wanted = (asked.delivery_pressure, asked.inlet_pressure)
-    for name, port, pressure in zip(("delivery", "inlet"), (ported.delivery, ported.suction), wanted, strict=True):
-        if abs(port.mean_pressure - pressure) > allowed:
+    met = (reading.delivery_pressure, reading.inlet_pressure)
+    for name, found, pressure in zip(("delivery", "inlet"), met, wanted, strict=True):
+        if abs(found - pressure) > allowed:
             yield Remark(
                 PointWarning.PORT_PRESSURE_FOLLOWS_LINE,
-                f"the mean {name} pressure is {pressure_text(port.mean_pressure)}, what the orifice of its line "
+                f"the mean {name} pressure is {pressure_text(found)}, what the orifice of its line "
                 f"makes of the flow, not {pressure_text(pressure)} (limit {pressure_text(allowed)} off); leave "
                 "the orifice's area out and it is found",
             )

@@ -97,6 +97,16 @@ def test_oil_that_expands_past_the_chambers_is_in_the_balance(name, size):
     assert found.checks.energy_balance_error < CLOSED
 
 
+def test_an_inlet_that_loses_pressure_is_no_line_that_sets_it():
+    """The suction port lies 0.15 MPa below the gauge, which reads the stated pressure; no line has an orifice."""
+    stated = {"physics.incomplete_filling.inlet_loss": 3.0, "physics.incomplete_filling.laminar": 0.3}
+    pump = load_pump("ref90", stated)
+    found = lumped_point(pump, operating_point(pump))
+    assert found.suction.mean_pressure < pump.operating.inlet_pressure - 1e5
+    assert found.bench.inlet_pressure == pytest.approx(pump.operating.inlet_pressure)
+    assert found.warnings == ()
+
+
 def _shift(extension: Extension, plain) -> Array:
     found = lumped_point(with_effect(extension), operating_point(REF90)).bench
     return np.array(
