@@ -128,6 +128,15 @@ def orifice_table(coefficients: FlowCoefficients, opening: float) -> OrificeTabl
     return OrificeTable(tuple(map(float, grid)), tuple(map(float, course)))
 
 
+def slipper_way(slipper: SlipperSection) -> tuple[float, float]:
+    """From a slipper's chamber to the case in creeping flow: ln(r_out/r_in) of its lands with that of their edges, and
+    the length (m) of its bore, of one by a file that of the capillary with as much laminar resistance.
+    """
+    bore = bore_table(slipper)
+    length = slipper.orifice_length if bore is None else bore.equal_length(slipper.orifice_diameter)
+    return slipper.lands.log_ratio + slipper_path(slipper).extra_log, length
+
+
 def slipper_path(slipper: SlipperSection) -> LandPath:
     """From a slipper's pocket across its sealing lands to the case."""
     if slipper.pocket_file is None and slipper.groove_file is None:

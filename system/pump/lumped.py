@@ -10,7 +10,7 @@ from system.description.ports import PortsSection
 from system.description.pump import PumpDescription
 from system.inputs.units import TURN
 from system.pump.chamber.problem import Chamber, ChamberProblem, LeakTable
-from system.pump.land_losses import land_losses
+from system.pump.land_losses import land_losses, slipper_way
 from system.pump.laws import friction_pairs as pairs
 from system.pump.laws.friction_pairs import FrictionPairs, PairLoss
 from system.pump.laws.kinematics import (
@@ -154,8 +154,7 @@ def lumped_leaks(pump: PumpDescription, point: OperatingPoint[Number], motion: P
     diameter = pump.pump.piston_diameter
     radii = (v.land_radius_1, v.land_radius_2, v.land_radius_3, v.land_radius_4)
     r1, r2, r3, r4 = (float(radius * v.sphere.stretch(radius)) for radius in radii)
-    log_ratio = s.lands.log_ratio + losses.slipper.extra_log
-    bore = s.orifice_length if losses.bore is None else losses.bore.equal_length(s.orifice_diameter)
+    log_ratio, bore = slipper_way(s)
     slipper = slipper_conductance(log_ratio, s.film_thickness, s.orifice_diameter, bore, mu)
     extra_logs = losses.inner.extra_log, losses.outer.extra_log
     plate = valve_plate_conductance((r1, r2, r3, r4), v.film_thickness, pump.pump.pistons, mu, extra_logs)

@@ -11,6 +11,7 @@ from system.effects.effect import BenchState, Effects, GapCourse
 from system.effects.extension import Values
 from system.effects.state import GAPS, unchanged, warmed
 from system.pump.film_thickness import LEAST_FILM
+from system.pump.land_losses import slipper_way
 
 ISENTROPIC_RISE = 0.45e-6
 """K/Pa by which throttled mineral oil warms, (1 - alpha T)/(rho cp)."""
@@ -170,9 +171,13 @@ def _in_films(courses: Courses, state: BenchState, flows: list[Array], shears: l
 
 
 def through_orifice(lands: Array, state: BenchState) -> Array:
-    """Factor on a slipper's leakage for `lands` times the flow through its lands: Eq. (16)."""
+    """Factor on a slipper's leakage for `lands` times the flow through its lands: Eq. (16).
+
+    With edges and bore by files (`land_losses.slipper_way`).
+    """
     slipper = state.geometry.slipper
+    log_ratio, bore = slipper_way(slipper)
     d4, h3 = slipper.orifice_diameter**4, slipper.film_thickness**3
-    share = 128.0 * h3 * slipper.orifice_length
-    share /= share + 6.0 * d4 * slipper.lands.log_ratio
+    share = 128.0 * h3 * bore
+    share /= share + 6.0 * d4 * log_ratio
     return np.asarray(1.0 / ((1.0 - share) / lands + share))

@@ -11,9 +11,12 @@ from gaps.films.slipper import hagen_poiseuille_conductance, supply
 from gaps.shapes.orifice_table import OrificeTable
 from reynolds import InputError
 from system import load_pump, lumped_point, operating_point, piston_motion
+from system.effects.gap_states import bench_state
+from system.effects.laws.film import through_orifice
 from system.inputs.coefficients.edge_losses import KINETIC, Edge, LandPath, LossCourse, secant_conductance
 from system.pump.land_losses import creeping_film_leaks, land_losses, orifice_table, with_inertia
 from system.pump.lumped import lumped_leaks
+from system.pump.operating import columns
 
 DENSITY, VISCOSITY = 860.0, 0.02
 NU = VISCOSITY / DENSITY
@@ -201,6 +204,8 @@ def test_a_bore_s_file_takes_the_place_of_its_length(tmp_path):
     assert lumped_leaks(twice, point, motion).conductance[1] == pytest.approx(
         lumped_leaks(longer, point, motion).conductance[1], rel=1e-9
     )
+    left = [through_orifice(np.array([1e9]), bench_state(one, columns(point), np.zeros(1))) for one in (twice, longer)]
+    assert left[0] == pytest.approx(left[1], rel=1e-9)
 
 
 def test_openings_between_rows_are_interpolated():
