@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from enum import Enum
 from typing import Any, Generic
 
@@ -177,6 +177,10 @@ def neutral(points: int, angles: int) -> Effects:
 
 
 def both(one: Effects, other: Effects) -> Effects:
-    """Two laws at once, each independent of the other: factors multiply, all else adds."""
+    """Two laws at once, each independent of the other: factors multiply, all else adds; bubbles of both have the mean
+    exponent of their volumes.
+    """
     pairs = {field.name: (getattr(one, field.name), getattr(other, field.name)) for field in fields(Effects)}
-    return Effects(**{name: a * b if name in FACTORS else a + b for name, (a, b) in pairs.items()})
+    found = Effects(**{name: a * b if name in FACTORS else a + b for name, (a, b) in pairs.items()})
+    share = np.divide(other.free_air, found.free_air, out=np.zeros_like(found.free_air), where=found.free_air > 0.0)
+    return replace(found, air_exponent=one.air_exponent + share * (other.air_exponent - one.air_exponent))

@@ -26,11 +26,13 @@ def free_air(share: float, pressure: Array) -> Array:
 def entrained_air(values: Values, courses: Courses, state: BenchState) -> Effects:
     """Bubbles fill part of the displacement and of the dead volume as they expand; at delivery they have vanished.
 
-    `void`: volume share at one atmosphere. The missing oil is x(p_in) - x(p_out) of displaced and dead volume.
+    `void`: volume share at one atmosphere. The missing oil is x(p_in) - x(p_out) of displaced and dead volume, at most
+    all that is displaced.
     """
     lost = free_air(values["void"], absolute(state.inlet_pressure))
     lost = lost - free_air(values["void"], absolute(state.delivery_pressure))
-    return replace(unchanged(courses), intake=1.0 - lost * (1.0 + dead_volume(state) / displaced(state)))
+    filled = 1.0 - lost * (1.0 + dead_volume(state) / displaced(state))
+    return replace(unchanged(courses), intake=np.maximum(filled, 0.0))
 
 
 def air_in_chambers(values: Values, courses: Courses, state: BenchState) -> Effects:

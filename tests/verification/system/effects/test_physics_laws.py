@@ -11,7 +11,7 @@ from scipy.integrate import quad
 from reynolds import dynamic_viscosity
 from reynolds.laws.contact import gaussian_moment
 from system import CATALOGUE, BenchState, Gap, GapCourse, PortOpening, ReliefGroove, load_pump
-from system.effects.effect import neutral
+from system.effects.effect import both, neutral
 from system.effects.laws import (
     air as air_laws,
     contact as contact_laws,
@@ -291,6 +291,26 @@ def test_control_flow_by_both_takes_up_the_pressure(pressure):
 def test_air_of_sheet_a5():
     for pressure, share in ((1e5, 0.01), (3e5, 0.0044), (25e5, 0.0009)):
         assert air_laws.free_air(0.01, np.array([pressure]))[0] == pytest.approx(share, rel=0.25)
+
+
+def test_bubbles_leave_no_room_at_most():
+    """A small stroke over a large dead volume at a low inlet: no oil is drawn in, none comes out of nothing."""
+    starved = state(1500, pressure=10e6, ratio=0.05, inlet=-0.07e6)
+    assert air_laws.entrained_air({"void": 0.05}, courses(), starved).intake[0] == 0.0
+    assert 0.0 < air_laws.entrained_air({"void": 0.05}, courses(), state(1500, ratio=0.05)).intake[0] < 1.0
+
+
+def test_bubbles_of_two_laws_keep_their_exponent():
+    at = state([1000, 2000])
+    values = ({"void": void, "polytropic": 1.2} for void in (0.01, 0.02, 0.03))
+    one, two, three = (air_laws.air_in_chambers(own, courses(points=2), at) for own in values)
+    found = both(one, two)
+    assert found.free_air == pytest.approx(three.free_air, rel=1e-12)
+    assert found.air_exponent == pytest.approx(three.air_exponent, rel=1e-12)
+    none = neutral(2, 8)
+    for pair in (both(none, one), both(one, none)):
+        np.testing.assert_array_equal(pair.air_exponent, one.air_exponent)
+        np.testing.assert_array_equal(pair.free_air, one.free_air)
 
 
 def test_outside_keeps_mass_and_work():
