@@ -92,7 +92,7 @@ def test_an_initial_film_under_pressure_holds_the_oil_of_its_open_walls():
     along = np.array([space.place(unknown)[0] for unknown in range(space.size)])
     far = np.abs(along - 0.5 * LENGTH) < 0.3 * LENGTH  # of no edge's cells
     assert far.sum() > 4
-    assert oil[far] == pytest.approx(0.5 * (3e-6 + 8e6 / STIFFNESS) * area[far], rel=1e-12)
+    assert oil[far] == pytest.approx(0.5 * (3e-6 + 8e6 / STIFFNESS) * area[far], rel=1e-12, abs=0.0)
     with pytest.raises(FilmInputError, match="pressure"):
         full_film(floating, 0.0, np.array([3e-6]), initial=InitialFilm(np.zeros(3), np.ones(space.size)))
 

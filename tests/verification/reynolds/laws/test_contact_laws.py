@@ -71,7 +71,7 @@ def test_moment_against_quadrature(order, ratio):
         0.0, end, epsabs=0.0, epsrel=1e-12, points=[0.25 * end, 0.5 * end], limit=400,
     )  # fmt: skip
     assert float(gaussian_moment(order, ratio).value) == pytest.approx(
-        outside * inner / np.sqrt(2.0 * np.pi), rel=1e-11
+        outside * inner / np.sqrt(2.0 * np.pi), rel=1e-11, abs=0.0
     )
 
 
@@ -83,7 +83,7 @@ def test_moment_falls_with_its_slope(ratio, order):
     assert slope < 0.0
     ahead, behind = (gaussian_moment(order, ratio + d).value for d in (1e-5, -1e-5))
     # Rounding of the series, 1e-13, over the step; curvature (H step)^2.
-    assert (ahead - behind) / 2e-5 == pytest.approx(float(slope), rel=1e-6)
+    assert (ahead - behind) / 2e-5 == pytest.approx(float(slope), rel=1e-6, abs=0.0)
 
 
 @EXAMPLES
@@ -92,7 +92,7 @@ def test_recursion(ratio, order):
     """F_(n+1) = n F_(n-1) - H F_n, by parts; its terms cancel for large H, hence the scale."""
     after, here, before = (float(gaussian_moment(n, ratio).value) for n in (order + 1.0, order, order + 2.0))
     slope = float(gaussian_moment(order + 1.0, ratio).slope)  # - (n + 1) F_n
-    assert slope == pytest.approx(-(order + 1.0) * here, rel=1e-11)
+    assert slope == pytest.approx(-(order + 1.0) * here, rel=1e-11, abs=0.0)
     terms = ((order + 1.0) * here, -ratio * after)
     assert before == pytest.approx(sum(terms), abs=1e-11 * max(abs(t) for t in terms))
 
