@@ -18,11 +18,12 @@ from reynolds.errors import FilmNotConverged, InputError
 from reynolds.floating.coordinates import ContactForce, generalised_force
 from reynolds.floating.joint_walls import JointWalls, WallPose, walls_of
 from reynolds.floating.pockets import filled
-from reynolds.floating.pose import film_at_corners, posed
+from reynolds.floating.pose import posed, rigid_film
 from reynolds.floating.problem import Outer
 from reynolds.floating.sensitivity import FilmSensitivity
 from reynolds.floating.stage import EXACT, Closeness, FloatingStage
 from reynolds.floating.trial import FloatingInstant, StepStart, Trial, force_scale, joined, parted, room_within, solved
+from reynolds.laws.law import Tangent
 from reynolds.numerics.arrays import Array
 from reynolds.problem import FilmProblem, FilmSolution, Storage
 
@@ -271,11 +272,8 @@ class JointSearch:
         """The film at a state as a problem of its own: elastic walls with their shape before they deform."""
         instant, shape = self._instant, self._shape
         if shape.walls is None:
-            film = replace(
-                shape.film,
-                thickness=at.film.coefficients.film,
-                thickness_at_vertices=film_at_corners(shape, instant.modes, at.q),
-            )
+            c = at.film.coefficients
+            film = rigid_film(shape, instant.modes, at.q, Tangent(c.film, c.film_slope))
         else:
             film = posed(shape, instant.modes, at.q).film
         return replace(

@@ -7,6 +7,7 @@ import numpy as np
 from reynolds.equation.rough_overlap import film_between
 from reynolds.floating.coordinates import ContactForce, Modes, SoftContact
 from reynolds.laws.contact import LOWEST_RATIO, Asperities
+from reynolds.laws.law import Tangent
 from reynolds.numerics.arrays import Array
 from reynolds.problem import Film, FilmProblem, FilmSolution
 
@@ -36,11 +37,20 @@ def posed(shape: FilmProblem, modes: Modes, q: Array) -> PosedFilm:
         corners = None if corners is None else corners + modes.at_vertices @ q
         film = replace(shape.film, thickness=gap, thickness_at_vertices=corners)
         return PosedFilm(film, shape.asperities, gap, corners, float(gap.min()), modes.at_points)
-    between, at_corners = film_between(shape, gap), film_at_corners(shape, modes, q)
+    between = film_between(shape, gap)
     gap, corners, least = rigid_gap(shape, modes, q)
-    film = replace(shape.film, thickness=between.value, thickness_at_vertices=at_corners)
     thicker = np.ascontiguousarray(between.slope[:, :, None] * modes.at_points)
-    return PosedFilm(film, None, gap, corners, least, thicker)
+    return PosedFilm(rigid_film(shape, modes, q, between), None, gap, corners, least, thicker)
+
+
+def rigid_film(shape: FilmProblem, modes: Modes, q: Array, between: Tangent) -> Film:
+    """The film between rigid walls at a position (k,) m, its thickness at the points (m) with the slope by the gap.
+
+    It is squeezed as it grows with the gap, whose rate is the squeeze of the shape.
+    """
+    squeeze, corners = shape.film.squeeze, film_at_corners(shape, modes, q)
+    squeeze = squeeze * between.slope if squeeze.any() else squeeze
+    return replace(shape.film, thickness=between.value, thickness_at_vertices=corners, squeeze=squeeze)
 
 
 def rigid_gap(shape: FilmProblem, modes: Modes, q: Array) -> tuple[Array, Array | None, float]:

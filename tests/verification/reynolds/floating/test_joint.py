@@ -29,6 +29,8 @@ from reynolds import (
     Pocket,
     Surface,
     film_space,
+    held_at,
+    rectangle,
     ring,
     steady,
 )
@@ -186,6 +188,21 @@ def test_table_of_the_gap(surface, asperities, elastic):
         pressed = contact_pressure(asperities, gap)
         np.testing.assert_allclose(c.contact, pressed.value, atol=1e-9 * pressed.value.max())
         np.testing.assert_allclose(c.contact_slope, pressed.slope, atol=1e-8 * np.abs(pressed.slope).max())
+
+
+def test_rough_walls_that_overlap_are_squeezed_as_their_film():
+    """A tenth of a micrometre apart the film is an exponential of the gap, and so is what its closing presses out."""
+    space, gap, closing = film_space(rectangle((4e-3, 3e-3), (4, 3))), 1e-7, np.full((1, 1), -1e-6)
+    ends = dict.fromkeys(("left", "right"), Held(1e5))
+    oil = Film(ZERO, np.full((1, 1), VISCOSITY), (ZERO, ZERO), (ZERO, ZERO), closing)
+    shape = FilmProblem(space, oil, ends, Cavitation.NONE, surface=HEIGHTS, asperities=SUMMITS)
+    one = np.ones((len(space.vertices), 1))
+    plate = Floating("plate", lambda t: shape, lambda t: one, lambda *_: steady(np.zeros(1)))
+    found = held_at(FilmSolver(space), plate, 0.0, np.array([gap])).solution
+    film = film_at(HEIGHTS, SUMMITS, False, np.array([gap]))
+    rate = flow_factors(HEIGHTS, film.value).content.slope * film.slope * closing[0]
+    assert film.slope[0] < 0.6
+    assert found.storage_rate.sum() == pytest.approx(float(rate[0]) * 12e-6, rel=1e-6, abs=0.0)
 
 
 @pytest.mark.parametrize("summits", [0.0, 0.7, 5.0])
