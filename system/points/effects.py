@@ -5,12 +5,14 @@ from dataclasses import replace
 
 import numpy as np
 
+from reynolds.errors import NotConverged
 from system.description.pump import PumpDescription
 from system.effects.applied import affected_leaks, affected_wear, effects_at, left_over
 from system.effects.effect import Effects
 from system.effects.gap_states import bench_state
 from system.effects.outside import outside
 from system.effects.switched import stated_laws
+from system.inputs.shown import pressure_text
 from system.pump.bench import NOTHING_OUTSIDE, Outside
 from system.pump.chamber.cycle import ChamberCycle
 from system.pump.chamber.problem import ChamberProblem, LeakTable
@@ -45,10 +47,19 @@ def affected_problem(
 
 
 def at_the_ports(point: OperatingPoint, effects: Sequence[Effects[float]]) -> OperatingPoint:
-    """The point with stroke and inlet pressure after effects, mean of the chambers' effects."""
+    """The point with stroke and inlet pressure after effects, mean of the chambers' effects.
+
+    Raises NotConverged where no stroke is left: the chambers of an upright plate have no periodic turn.
+    """
     if not effects:
         return point
     ideal, loss = (float(np.mean([getattr(one, name) for one in effects])) for name in ("ideal", "suction_loss"))
+    if ideal <= 0.0:
+        raise NotConverged(
+            f"physics.swash_droop: at {pressure_text(point.delivery_pressure)} and a displacement ratio of "
+            f"{point.displacement_ratio:.3g} the swash plate gives way to upright and moves no piston; a larger "
+            "displacement, a lower pressure, or a smaller rate or play"
+        )
     return left_over(point, ideal, loss)
 
 

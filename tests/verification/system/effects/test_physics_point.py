@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from reynolds import Array
+from reynolds import Array, NotConverged
 from system import (
     EXTENSIONS,
     SIMULATED,
@@ -95,6 +95,14 @@ def test_oil_that_expands_past_the_chambers_is_in_the_balance(name, size):
     found = lumped_point(pump, operating_point(pump))
     assert found.power.extended > 0.01 * found.power.shaft
     assert found.checks.energy_balance_error < CLOSED
+
+
+def test_a_plate_that_gives_way_to_upright_is_told():
+    """0.6 deg of droop and 0.17 deg of play at 35 MPa are more than the 0.5 deg of a small displacement."""
+    pump = replace(REF90, physics=section_of(PhysicsSection, {"swash_droop": {"rate": 3e-10, "play": 2.9e-3}}))
+    with pytest.raises(NotConverged, match=r"swash_droop.*35 MPa and a displacement ratio of 0.03 .* upright"):
+        lumped_point(pump, operating_point(pump, displacement_ratio=0.03))
+    assert lumped_point(pump, operating_point(pump, displacement_ratio=0.1)).bench.delivery_flow > 0.0
 
 
 def test_an_inlet_that_loses_pressure_is_no_line_that_sets_it():
