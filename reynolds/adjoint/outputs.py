@@ -64,7 +64,7 @@ class ContactLoadOutput:
 
     def slopes(self, film: SolvedFilm) -> OutputSlopes:
         """As `Output`."""
-        asperities, area = film.problem.asperities, film.space.area
+        asperities, area = film.problem.asperities, film.space.axial_area
         if asperities is None:
             raise FilmInputError("contact load", "walls without asperities", "a problem with `asperities`")
         bears = contact_pressure(asperities, film.solution.gap)

@@ -331,10 +331,10 @@ class _LoadSearch:
 
 
 def _supported(solution: FilmSolution) -> tuple[float, float, float]:
-    """Force (N) and moments (N m) of film and contact."""
+    """Force (N, on a sphere along z) and moments (N m) of film and contact."""
     force, moment_x, moment_y = pressure_integrals(solution)
     problem = solution.problem
     if problem.asperities is not None:
         pressed = contact_pressure(problem.asperities, solution.gap).value
-        force += float(np.sum(np.broadcast_to(pressed, problem.space.area.shape) * problem.space.area))
+        force += float(np.sum(pressed * problem.space.axial_area))
     return force, moment_x, moment_y

@@ -21,11 +21,12 @@ from reynolds.solve.rubbing import rubbing
 class Loads:
     """Integrals of one film solution, SI.
 
-    load N (integral of p); contact_load N, borne by asperities besides; moment_x, moment_y N m (integrals of p y and of
-    -p x about the origin, p with the contact's pressure); friction_moving, friction_fixed N: force of oil and contact
-    on each wall (x, y); friction_torque_* N m about the origin; dissipation W, contact included; flow m3/s by boundary
-    name, positive out of the film; squeeze_flow m3/s, growth of the film's oil; cavity_flow m3/s, supply (+) or sink
-    (-) of the cavity under Reynolds' condition, else zero; film_fraction_min, cavitated_area_fraction;
+    load N (integral of p); contact_load N, borne by asperities besides (on a sphere both along z); moment_x, moment_y
+    N m (integrals of p y and of -p x about the origin, p with the contact's pressure); friction_moving, friction_fixed
+    N: force of oil and contact on each wall (x, y); friction_torque_* N m about the origin; dissipation W, contact
+    included; flow m3/s by boundary name, positive out of the film; squeeze_flow m3/s, growth of the film's oil;
+    cavity_flow m3/s, supply (+) or sink (-) of the cavity under Reynolds' condition, else zero; film_fraction_min,
+    cavitated_area_fraction;
     mass_balance_error = |out + squeeze - cavity|, relative to the flow through the boundaries or the flows within the
     film, whichever are larger; energy_balance_error likewise relative to the dissipation, the walls' or the flows'
     power: round-off between smooth walls and with oil of constant density; else the terms left out: the pressure on the
@@ -145,7 +146,7 @@ def loads(solution: FilmSolution, weight: Array | None = None) -> Loads:
     load, moment_x, moment_y = pressure_integrals(solution)
     return Loads(
         load=load,
-        contact_load=float(np.sum(fields.contact_pressure * area)),
+        contact_load=float(np.sum(fields.contact_pressure * space.axial_area)),
         moment_x=moment_x,
         moment_y=moment_y,
         pressure_max=float(solution.pressure[peak]),

@@ -11,7 +11,9 @@ import pytest
 from scipy.integrate import quad
 
 from reynolds import (
+    Asperities,
     Cavitation,
+    ContactLoadOutput,
     FilmInputError,
     FilmProblem,
     FilmSolution,
@@ -19,11 +21,14 @@ from reynolds import (
     FilmSpace,
     Held,
     annulus,
+    contact_pressure,
     film,
+    film_gradients,
     film_space,
     loads,
 )
 from reynolds.fem.sphere import PLANE, Sphere
+from reynolds.solve.load_search import RigidLoad, carry_load
 from reynolds.solve.loads import pressure_integrals
 
 RADIUS, FROM, TO = 40e-3, 0.5, 1.2  # m, rad
@@ -197,3 +202,18 @@ def test_a_large_sphere_is_a_plane():
         done.append(loads(solved(one, THICKNESS + 1e-4 * x, DROP, velocity_moving=(-SPIN * y, SPIN * x))))
     for name in ("load", "moment_x", "moment_y", "dissipation", "friction_torque_moving", "pressure_max"):
         assert getattr(done[0], name) == pytest.approx(getattr(done[1], name), rel=1e-6), name
+
+
+def test_asperities_bear_along_the_axis_as_the_film_does():
+    """One pressure of the film and one of contact all over the seat: both loads are those on its projected area."""
+    space, rough = seat(8), Asperities(2e10, 5e-6, 5e-7, 1e11, 0.1)
+    edges = {"inner": Held(DROP), "outer": Held(DROP)}
+    problem = FilmProblem(space, film(1e-6, VISCOSITY), edges, Cavitation.NONE, asperities=rough)
+    solver = FilmSolver(space)
+    solution = solver.solve(problem)
+    found, bears = loads(solution), float(contact_pressure(rough, 1e-6).value)
+    assert found.contact_load == pytest.approx(found.load * bears / DROP, rel=1e-12)
+    (by_film,) = film_gradients(solver, solution, [ContactLoadOutput()])
+    assert by_film.value == pytest.approx(found.contact_load, rel=1e-12)
+    carried = carry_load(problem, RigidLoad(found.load + found.contact_load), solver.solve)
+    assert carried.position.separation == pytest.approx(0.0, abs=1e-11)
