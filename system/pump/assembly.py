@@ -247,15 +247,23 @@ def _remarks(asked: OperatingPoint, ported: PortedCycle, reading: BenchReading, 
 
 
 def _no_delivery(reading: BenchReading, leaks: Gaps[float]) -> Remark:
-    """The remark of a machine that does not pump, with the gap that leaks most."""
-    widest = max(fields(leaks), key=lambda gap: float(getattr(leaks, gap.name))).name
+    """The remark of a machine that does not pump: its oil drives it, or leaks."""
+    driven = reading.inlet_flow > 0.0 and reading.delivery_flow > 0.0
+    why = "the oil drives the shaft, as in a motor; efficiencies of a pump are void" if driven else _leaking(leaks)
     return Remark(
         PointWarning.NO_DELIVERY,
         f"delivery flow {reading.delivery_flow * LPM:.3g} L/min, inlet flow {reading.inlet_flow * LPM:.3g} L/min, "
-        f"shaft power {reading.shaft_power:.3g} W (limit: all above 0): leakage takes more than the pistons move, "
-        f"{getattr(leaks, widest) * LPM:.3g} of {leaks.total * LPM:.3g} L/min through the "
-        f"{widest.replace('_', ' ')} gap, efficiencies are void; a tighter gap there, more speed or displacement, less "
-        "pressure or temperature",
+        f"shaft power {reading.shaft_power:.3g} W (limit: all above 0): {why}",
+    )
+
+
+def _leaking(leaks: Gaps[float]) -> str:
+    """Leakage above the flow of the pistons, with the gap that leaks most."""
+    widest = max(fields(leaks), key=lambda gap: float(getattr(leaks, gap.name))).name
+    return (
+        f"leakage takes more than the pistons move, {getattr(leaks, widest) * LPM:.3g} of {leaks.total * LPM:.3g} "
+        f"L/min through the {widest.replace('_', ' ')} gap, efficiencies are void; a tighter gap there, more speed or "
+        "displacement, less pressure or temperature"
     )
 
 

@@ -49,6 +49,15 @@ def test_compression_alone(share, validation):
     assert found.motor.bench.inlet_flow == pytest.approx(found.pump.bench.delivery_flow, rel=1e-7)
 
 
+def test_a_motor_is_told_as_one():
+    """Its efficiencies as a pump are void since its oil drives it, not since it leaks."""
+    motor = couple({}).motor
+    assert motor.bench.shaft_power < 0.0
+    (told,) = (one for one in motor.warnings if one.warning.value == "no_delivery")
+    assert "the oil drives the shaft" in told.text
+    assert "leakage" not in told.text
+
+
 def test_leakage_alone(validation):
     """The leakage of the chambers at high pressure, half of them at a time, is lost twice: 1 - z G (p - p_case)/Q."""
     found = couple({**TIGHT, **STIFF, "slipper.film_thickness": "15 um", "valve_plate.film_thickness": "15 um"})
