@@ -72,18 +72,19 @@ def _solved(
     found: Kinds, pump: PumpDescription, asked: OperatingPoint, effects: Sequence[Effects[float]], tolerance: float
 ) -> PumpPoint:
     """The point with the changes by effects, kind by kind, or without."""
-    point = at_the_ports(asked, effects)
+    acting = found.by_chamber(effects) if effects else ()
+    point = at_the_ports(asked, acting)
     motions = [piston_motion(own, point) for own in found.pumps]
     ported = _ported(found, pump, point, motions, effects, tolerance)
     pistons = pump.pump.pistons
     chambers = list(zip(found.by_chamber(found.pumps), found.by_chamber(motions), ported.cycles, strict=True))
     losses = [lumped_pairs(own, point, motion, cycle) for own, motion, cycle in chambers]
-    if effects:
-        losses = [rubbed(*each) for each in zip(losses, found.by_chamber(effects), strict=True)]
+    if acting:
+        losses = [rubbed(*each) for each in zip(losses, acting, strict=True)]
     exchange = chamber_exchange(ported.cycle, pistons * point.shaft_speed / TURN)
     derived = float(np.mean([swept_displacement(own, motion.drive) for own, motion, _ in chambers]))
     masses = [group_masses(own) for own, _, _ in chambers]
-    outside = mean_outside(pump, met_point(asked, ported), found.by_chamber(effects) if effects else ())
+    outside = mean_outside(pump, met_point(asked, ported), acting)
     return assemble(asked, ported, losses, pistons, derived, exchange, masses, outside)
 
 
