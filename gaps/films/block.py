@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 from gaps.films.friction import WallShear, wall_shear
 from gaps.films.over_turn import OverTurn
 from gaps.films.physics import FilmLaws, Physics, laws_left
-from gaps.shapes.profiles import PLAIN, Profile
+from gaps.shapes.profiles import PLAIN, Profile, over_part
 from gaps.shapes.valve_plate_ring import SEALED, Ring, ValvePlateGeometry
 from gaps.walls.pair import while_turning
 from gaps.walls.parts import Pose
@@ -129,7 +129,7 @@ class BlockFilm:
         self.geometry, self.drive = geometry, drive
         self.ring = Ring(geometry, cells)
         self._leverage = _leverage(geometry.sphere, drive.spline_height)
-        self._face = face
+        self._face = over_part(face, geometry.land_radii[0], geometry.outer_radius)
         self._physics = Physics() if physics is None else physics
         self._laws = laws_left(FilmLaws() if laws is None else laws, self._physics)
         self._named = np.unique(np.concatenate(list(self.ring.space.edge_dofs.values())))

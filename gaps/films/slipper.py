@@ -19,7 +19,7 @@ from gaps.films.friction import WallShear, wall_shear
 from gaps.films.over_turn import OverTurn
 from gaps.films.physics import FilmLaws, Physics, laws_left
 from gaps.shapes.orifice_table import OrificeTable
-from gaps.shapes.profiles import PLAIN, Profile
+from gaps.shapes.profiles import PLAIN, Profile, over_part
 from gaps.shapes.slipper_lands import SlipperLands, slipper_mesh
 from gaps.walls.pair import while_turning
 from gaps.walls.parts import Pose
@@ -239,6 +239,7 @@ class SlipperFilm:
         self._around = cells[1]
         self._space = film_space(slipper_mesh(shape.lands.radii, cells), pockets=shape.lands.closed)
         self._supply = supply(shape.orifice, drive.viscosity, drive.density)
+        self._relief = over_part(shape.face, shape.lands.inner_radius, shape.lands.outer_radius)
 
     @property
     def space(self) -> FilmSpace:
@@ -350,7 +351,7 @@ class SlipperFilm:
         """Relief of the face (m) at places; it turns with the slipper."""
         # The mesh's sectors are straight: between their corners the radius is a little less than the land's.
         radius = np.maximum(np.hypot(x, y), self.shape.lands.inner_radius)
-        return np.asarray(self.shape.face(radius, np.arctan2(y, x) - self.drive.spin * time).depth)
+        return np.asarray(self._relief(radius, np.arctan2(y, x) - self.drive.spin * time).depth)
 
 
 def floating_slipper(film: SlipperFilm) -> Floating:

@@ -214,6 +214,24 @@ def measured(rows: Sequence[Sequence[float]]) -> DepthPoints | PointsAround:
     return PointsAround(places, angles, tuple(tuple(depths[i, j] for j in angles) for i in places))
 
 
+@dataclass(frozen=True)
+class OverPart:
+    """A shape from start to end of a part (m), beyond them as there: polygons stray from a part's circles."""
+
+    shape: ProfileShape
+    start: float
+    end: float
+
+    def __call__(self, place: Array, angle: Array) -> Relief:
+        return self.shape(np.clip(place, self.start, self.end), angle)
+
+
+def over_part(profile: Profile, start: float, end: float) -> Profile:
+    """The profile of a face from one radius to another (m): its measured points need not reach beyond them."""
+    points = DepthPoints, PointsAround
+    return Profile(tuple(OverPart(one, start, end) if isinstance(one, points) else one for one in profile.shapes))
+
+
 def missed_rise(profile: Profile, edges: Array) -> float:
     """Largest error (m) of the rise of measured points over a cell between edges (n,) m, 0.0 without points.
 

@@ -67,6 +67,11 @@ class ValvePlateGeometry:
         return ("inner", "outer", EDGE) if self.pads else ("inner", "outer")
 
     @property
+    def outer_radius(self) -> float:
+        """Outer radius of lands and pads, m."""
+        return max(self.land_radii[3], *(pads.outer_radius for pads in self.pads), 0.0)
+
+    @property
     def pitch(self) -> float:
         """Angle from kidney to kidney, rad."""
         return 2.0 * np.pi / self.pistons

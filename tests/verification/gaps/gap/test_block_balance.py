@@ -16,6 +16,7 @@ from scipy.integrate import quad
 from gaps import (
     BlockDrive,
     BlockFilm,
+    DepthPoints,
     FilmLaws,
     Profile,
     ValvePlateGeometry,
@@ -27,8 +28,10 @@ from gaps import (
 )
 from gaps.films.block import generalised, kidney_wrench, wrench_about
 from gaps.loads.block_tipping import BlockBalance, land_lift
+from gaps.shapes.bearing_pads import BearingPads
 from reynolds import (
     Asperities,
+    FilmInputError,
     FilmProblem,
     FilmSolver,
     Storage,
@@ -323,3 +326,16 @@ def test_waves_of_the_plate_carry_the_block():
     assert lift(wavy, 0.0) == pytest.approx(0.0, abs=1e-3)
     assert lift(Profile(), SPEED) == pytest.approx(0.0, abs=1e-3)
     assert lift(wavy, SPEED) > 1e3
+
+
+def test_a_plate_is_measured_over_its_lands_and_pads_alone():
+    """The corners of a mesh lie a little beyond the circles, the middles of its edges a little within."""
+    pads = BearingPads(1.1 * RADII[3], 1.2 * RADII[3], 0.4, 6)
+    for geometry, outermost in ((ALL_ROUND, RADII[3]), (replace(ALL_ROUND, pads=(pads,)), 1.2 * RADII[3])):
+        rising = Profile((DepthPoints((RADII[0], outermost), (1e-6, 3e-6)),))
+        found = BlockFilm(geometry, drive(), rising, cells=(3, 16)).problem_at(0.0).film
+        assert found.thickness_at_vertices.max() == pytest.approx(3e-6, abs=1e-15)
+        assert 1e-6 <= found.thickness.min() < 1.2e-6
+        short = Profile((DepthPoints((RADII[0], 0.99 * outermost), (1e-6, 3e-6)),))
+        with pytest.raises(FilmInputError, match="profile, place"):
+            BlockFilm(geometry, drive(), short, cells=(3, 16)).problem_at(0.0)

@@ -9,6 +9,7 @@ import pytest
 from scipy.optimize import minimize_scalar
 
 from gaps import (
+    DepthPoints,
     EdgeRelief,
     Effect,
     FilmLaws,
@@ -316,11 +317,25 @@ def test_face_turns_with_the_slipper():
     face = Profile((EdgeRelief(OUTER, 8e-3, 2e-6), Waviness(2, 1e-6)))
     film = SlipperFilm(replace(SHAPE, face=face), _drive(spin=10.0), cells=(4, 32))
     x, y = film.space.vertices.T
-    rim = np.isclose(np.hypot(x, y), OUTER)
+    radius = np.hypot(x, y)
+    rim = radius > 0.999 * OUTER
+    assert np.count_nonzero(rim) == 32
     for time in (0.0, 0.02):
         found = film.problem_at(time).film.thickness_at_vertices[rim]
-        wanted = 2e-6 + 1e-6 * np.cos(2.0 * (np.arctan2(y, x)[rim] - 10.0 * time))
+        relief = 2e-6 * ((radius[rim] - 8e-3) / (OUTER - 8e-3)) ** 2
+        wanted = relief + 1e-6 * np.cos(2.0 * (np.arctan2(y, x)[rim] - 10.0 * time))
         assert found == pytest.approx(wanted, abs=1e-15)
+
+
+def test_a_face_is_measured_over_its_land_alone():
+    """The corners of a mesh lie a little beyond the rim, the middles of its edges within the pocket's."""
+    rising = Profile((DepthPoints((INNER, OUTER), (1e-6, 3e-6)),))
+    found = SlipperFilm(replace(SHAPE, face=rising), _drive(), cells=(4, 32)).problem_at(0.0).film
+    assert found.thickness_at_vertices.max() == 3e-6
+    assert 1e-6 < found.thickness.min() < 1.3e-6
+    short = Profile((DepthPoints((INNER, 0.99 * OUTER), (1e-6, 3e-6)),))
+    with pytest.raises(FilmInputError, match="profile, place"):
+        SlipperFilm(replace(SHAPE, face=short), _drive(), cells=(4, 32)).problem_at(0.0)
 
 
 def test_mesh():
