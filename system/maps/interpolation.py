@@ -41,8 +41,8 @@ class MapInterpolant:
         if lacking:
             reason = str(self.data.reason[~self.data.solved][0])
             found = f"{lacking} of {self.data.solved.size} points without a result, the first: {reason}"
-            fault = Fault("map", found, "a whole map", "swashfilm map with --resume, or without those levels")
-            raise InputFaults(self.data.name, [fault])
+            remedy = "swashfilm map without those levels; --resume keeps the other points"
+            raise InputFaults(self.data.name, [Fault("map", found, "a whole map", remedy)])
 
     def at(self, inputs: Mapping[MapInput, Array]) -> dict[str, Array]:
         """Every number (N,) of the map at N points, SI; inputs of single level may be left out.

@@ -78,13 +78,17 @@ class Refused:
 
 @dataclass(frozen=True)
 class Sensitivity:
-    """Derivatives of all measures by all dimensions; middle: the measures (M,) of the pump as stated."""
+    """Derivatives of all measures by all dimensions.
+
+    middle: the measures (M,) of the pump as stated; internal: True where a pump ended by an error of the program.
+    """
 
     measures: tuple[Measure, ...]
     middle: Array
     slopes: tuple[KeySlopes, ...]
     refused: tuple[Refused, ...]
     warnings: tuple[str, ...]
+    internal: bool
     solved: int
     seconds: float
 
@@ -130,7 +134,8 @@ def sensitivity(
     middle = measured(pumps.middle, work.sites.weights, measures)
     seconds = sum(one.seconds for one in pumps.known.values())
     warnings = tuple(stated.record["warnings"])
-    return Sensitivity(measures, middle, slopes, (*refused, *failed), warnings, len(pumps.known), seconds)
+    internal = any(one.status is PartStatus.INTERNAL for one in pumps.known.values())
+    return Sensitivity(measures, middle, slopes, (*refused, *failed), warnings, internal, len(pumps.known), seconds)
 
 
 def _differentiated(

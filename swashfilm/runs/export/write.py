@@ -140,7 +140,7 @@ def _map_faults(data: MapData, to: str, place: Path) -> Iterator[Fault]:
         yield Fault("map", "a single point", "two levels of an input, or --to csv")
     if not FORMATS[to].holes and (hole := first_hole(data)):
         able = " or ".join(name for name, one in FORMATS.items() if one.holes)
-        remedy = f"swashfilm map .. --resume {quote(str(place))} solves what is missing; --to {able} writes nan"
+        remedy = f"swashfilm map .. --resume {quote(str(place))} without those levels; --to {able} writes nan"
         yield Fault("map", hole, f"a whole map: a table of {to} has no holes", remedy)
 
 

@@ -53,6 +53,11 @@ class VariedCase:
         """The pump as stated."""
         return self.work.pump
 
+    @property
+    def point_warnings(self) -> tuple[str, ...]:
+        """Warnings of the operating points, such as of those beyond the pump's rating."""
+        return tuple(self.plan.checked().warnings.values())
+
     def seconds(self, pumps: int) -> float:
         """Return the processor time (s), about, of so many pumps."""
         return pumps * self.work.solver.cost * len(self.work.sites.points)

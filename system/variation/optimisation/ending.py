@@ -4,7 +4,9 @@ from dataclasses import dataclass
 
 from scipy.optimize import OptimizeResult
 
-_OUT_OF_STEPS = {5, 9}
+from system.variation.optimisation.method import Method
+
+_OUT_OF_STEPS = {Method.TRUST_REGION: 5, Method.GRADIENT: 9}
 """Status of COBYQA and of SLSQP where their number of designs or of steps is used up."""
 
 
@@ -17,6 +19,6 @@ class Ending:
     why: str
 
 
-def ending(found: OptimizeResult) -> Ending:
-    """Return the end that a search of scipy tells of itself."""
-    return Ending(bool(found.success), int(found.status) in _OUT_OF_STEPS, str(found.message))
+def ending(found: OptimizeResult, method: Method) -> Ending:
+    """Return the end that a search of scipy by a method tells of itself."""
+    return Ending(bool(found.success), int(found.status) == _OUT_OF_STEPS[method], str(found.message))

@@ -11,6 +11,7 @@ from scipy.optimize import minimize
 
 from reynolds.numerics.arrays import Array
 from system.variation.optimisation.ending import Ending, ending
+from system.variation.optimisation.method import Method
 from system.variation.optimisation.problem import MET, Design, Problem
 from system.variation.optimisation.trials import Trials
 
@@ -34,7 +35,7 @@ def descend(trials: Trials, step: float, iterations: int) -> Ending:
         bounds=[(0.0, 1.0)] * len(trials.problem.space), constraints=constraints,
         options={"maxiter": iterations, "ftol": SETTLED},
     )  # fmt: skip
-    return ending(found)
+    return ending(found, Method.GRADIENT)
 
 
 class _Values:

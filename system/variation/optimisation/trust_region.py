@@ -12,6 +12,7 @@ from scipy.optimize import minimize
 
 from reynolds.numerics.arrays import Array
 from system.variation.optimisation.ending import Ending, ending
+from system.variation.optimisation.method import Method
 from system.variation.optimisation.problem import MET, Design, Problem
 from system.variation.optimisation.trials import Trials
 
@@ -42,7 +43,7 @@ def approach(trials: Trials, designs: int, last: float) -> Ending:
         bounds=[(0.0, 1.0)] * len(problem.space),
         options={"maxfev": designs - moved, "initial_tr_radius": FIRST, "final_tr_radius": last},
     )  # fmt: skip
-    return ending(found)
+    return ending(found, Method.TRUST_REGION)
 
 
 def fewest_designs(dimensions: int) -> int:

@@ -165,8 +165,9 @@ def test_two_processes_try_the_same_designs(run, tmp_path):
 
 def test_nothing_feasible(tmp_path, capsys):
     """The constraint in the way is named, and by how much the nearest design misses it."""
+    beyond = '"15,35MPa"', '"15,35MPa"\nspeeds = "2200rpm"'
     case = written(
-        tmp_path, changed(("<= 50 MPa", "<= 35.1 MPa"), ("-8..2 deg", "-8..-5 deg"), ("166..180", "166..171"))
+        tmp_path, changed(("<= 50 MPa", "<= 35.1 MPa"), ("-8..2 deg", "-8..-5 deg"), ("166..180", "166..171"), beyond)
     )
     place = tmp_path / "run"
     assert main(["optimise", str(case), "--workers", "1", "-o", str(place)]) == 3
@@ -180,6 +181,8 @@ def test_nothing_feasible(tmp_path, capsys):
     assert (first["measure"], first["met"]) == ("chamber_pressure_peak", 0)
     assert first["violation"] == pytest.approx(first["nearest"] / 35.1e6 - 1.0)
     assert not (place / "chosen.toml").exists()
+    assert "swashfilm run chosen.toml" not in said
+    assert "operating.speed: at 2 of 2 points; at the first: 2200 rpm, limit rated_speed" in said
     assert "highest chamber pressure is missed by" in (place / "report.html").read_text()
 
 

@@ -115,6 +115,36 @@ def test_sensitivity_over_a_cycle(tmp_path):
     assert "duty cycle of 10 s" in found.summary["at"]
 
 
+def test_a_sensitivity_of_refused_dimensions_alone(tmp_path):
+    """Every file is written without a single derivative, and the answer says so."""
+    found = sf.sensitivity("ref90", keys=["bearings.front_share"])
+    assert found.to_xarray()["derivative"].shape == (0, len(found.summary["measures"]))
+    page = (found.save(tmp_path / "run") / "report.html").read_text().replace("\u00a0", " ")
+    assert "Of 1 dimensions 0 change the loss. 1 of them has no derivative." in page
+
+
+def test_points_beyond_the_rating_are_told():
+    beyond = {"speeds": "2600rpm", "pressures": "420bar"}
+    one = sf.sensitivity("ref90", keys=["oil.density"], **beyond)
+    other = sf.tolerance("ref90", pumps=100, keys="slipper.film_thickness", **beyond)
+    for found in (one, other):
+        named = [warning.partition(":")[0] for warning in found.warnings]
+        assert {"operating.pressure", "operating.speed"} <= set(named)
+
+
+def test_an_internal_error_at_a_pump_ends_a_sensitivity_with_1(tmp_path, monkeypatch):
+    solve, stated = LumpedSolver.solve, load_pump("ref90").oil.density
+
+    def broken(self, pump, point):
+        if pump.oil.density > stated:
+            raise RuntimeError("a fault of the program")
+        return solve(self, pump, point)
+
+    monkeypatch.setattr(LumpedSolver, "solve", broken)
+    assert main(["sensitivity", "--keys", "oil.density", "--workers", "1", "-o", str(tmp_path / "run")]) == 1
+    assert json.loads((tmp_path / "run" / "summary.json").read_text())["internal_error"]
+
+
 def test_files_of_a_tolerance(series):
     summary = json.loads((series / "summary.json").read_text())
     pumps = summary["pumps"]

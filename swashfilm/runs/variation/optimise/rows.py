@@ -82,6 +82,6 @@ def count_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     counts = summary["counts"]
     yield "designs tried", str(counts["tried"])
     yield "refused by the geometry", str(counts["refused"])
-    yield "not converged", str(counts["not_converged"])
+    yield "without a result", str(counts["tried"] - counts["refused"] - counts["solved"])
     yield "feasible", str(counts["feasible"])
     yield "in the Pareto set", str(counts["pareto"])

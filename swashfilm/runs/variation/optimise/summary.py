@@ -145,6 +145,7 @@ def _obstacles(found: Optimisation) -> list[dict[str, Any]]:
 
 def _warnings(case: OptimiseCase, found: Optimisation, design: Design) -> Iterator[str]:
     """Yield warnings, `name: text; remedy` each."""
+    yield from case.varied.point_warnings
     counts = _counts(found)
     if not counts["feasible"]:
         yield _nothing_feasible(found)
@@ -163,13 +164,16 @@ def _warnings(case: OptimiseCase, found: Optimisation, design: Design) -> Iterat
             f"designs_refused: the geometry refuses {counts['refused']} of {counts['tried']} designs, such as by "
             f"{reason}; narrow the bounds"
         )
-    if counts["not_converged"]:
-        reason = next(one.reason for one in found.designs if one.status is PartStatus.NOT_CONVERGED)
-        yield f"points_failed: {counts['not_converged']} of {counts['tried']} designs have no result: {reason}"
+    if failed := [one for one in found.designs if one.status not in (PartStatus.SOLVED, PartStatus.FAULTY)]:
+        yield f"points_failed: {len(failed)} of {counts['tried']} designs have no result: {failed[0].reason}"
     if not found.problem.holds_start:
         yield "start_outside_bounds: the bounds do not hold the pump as stated; it is compared with, but no candidate"
     for name in design.warnings:
-        yield f"{name}: at the chosen design; swashfilm run chosen.toml at each operating point tells number and place"
+        yield (
+            f"{name}: at the chosen design; swashfilm run chosen.toml at each operating point tells number and place"
+            if counts["feasible"]
+            else f"{name}: at the design that misses the constraints by the least; find a feasible one first"
+        )
 
 
 def _not_settled(case: OptimiseCase, ending: Ending) -> str:

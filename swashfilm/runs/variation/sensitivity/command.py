@@ -4,6 +4,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from swashfilm.console.command import Command
+from swashfilm.console.points import EXIT_INTERNAL
 from swashfilm.console.terminal import show, show_result
 from swashfilm.runs.map.command import WORTH_TELLING
 from swashfilm.runs.variation.options import add_varied_options, varied_executor
@@ -13,7 +14,10 @@ if TYPE_CHECKING:
 
 
 def run_sensitivity_command(options: argparse.Namespace) -> int:
-    """Run `swashfilm sensitivity` and return its exit code; raise InputFaults with every fault, and NotConverged."""
+    """Run `swashfilm sensitivity` and return its exit code, 1 after an internal error at a pump.
+
+    Raises InputFaults with every fault, and NotConverged.
+    """
     from swashfilm.console.assumed import show_assumed
     from swashfilm.console.progress import progress
     from swashfilm.output.run_folder import run_folder
@@ -35,7 +39,7 @@ def run_sensitivity_command(options: argparse.Namespace) -> int:
         run_sensitivity(case, folder, executor, report)
         found = SensitivityRun.opened(folder)
     show_result(found, folder)
-    return 0
+    return EXIT_INTERNAL if found.summary["internal_error"] else 0
 
 
 def show_cost(case: "VariedCase", pumps: int) -> None:

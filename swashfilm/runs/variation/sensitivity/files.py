@@ -45,15 +45,17 @@ def write_data(path: Path, case: VariedCase, found: Sensitivity) -> None:
     """Write derivatives over dimensions and measures, and of every number at every operating point; SI."""
     import xarray
 
-    def stacked(part: str) -> Any:
-        return np.stack([getattr(one, part) for one in found.slopes])
-
     points = case.work.sites.points
+    shapes = {"value": (len(found.measures),), "sites": (len(points), len(NUMBERS))}
+    shapes |= {"error": shapes["value"], "verdict": shapes["value"], "sites_error": shapes["sites"]}
+
+    def stacked(part: str) -> Any:
+        return np.reshape([getattr(one, part) for one in found.slopes], (len(found.slopes), *shapes[part]))
+
     inputs: Mapping[str, Any] = {
         name: ("point", [getattr(point, name) for point in points]) for name in vars(points[0])
     }
-    smooth = np.stack([one.verdict == Verdict.SMOOTH for one in found.slopes])
-    none = np.stack([one.verdict == Verdict.NO_EFFECT for one in found.slopes])
+    smooth, none = (stacked("verdict") == verdict for verdict in (Verdict.SMOOTH, Verdict.NO_EFFECT))
     data = xarray.Dataset(
         {
             "derivative": (("key", "measure"), np.where(smooth, stacked("value"), np.where(none, 0.0, np.nan))),

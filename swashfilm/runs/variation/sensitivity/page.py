@@ -66,9 +66,13 @@ def _words(row: rows.Row, measure: str) -> str:
 
 
 def _sentences(summary: Mapping[str, Any], said: list[str]) -> str:
-    count = len(summary["dimensions"])
-    found = f"Of {count} dimensions {len(rows.ranked(summary))} change the loss. "
-    found += "; ".join(said).join(("The dearest of each kind: ", ".")) if said else "None costs anything."
+    dimensions = summary["dimensions"]
+    count, costly = len(dimensions) + len(summary["refused"]), sum(rows.cost(row, LOSS) != 0.0 for row in dimensions)
+    found = f"Of {count} dimensions {costly} change the loss."
+    if said:
+        found += f" The dearest of each kind: {'; '.join(said)}."
+    if unknown := len(summary["refused"]) + sum(rows.derivative(row, LOSS) is None for row in dimensions):
+        found += f" {unknown} of them {'has' if unknown == 1 else 'have'} no derivative."
     sized = [row for row in rows.ranked(summary) if row["sigma"] is not None]
     if sized:
         row = max(sized, key=lambda one: abs(rows.cost(one, LOSS, "sigma")))

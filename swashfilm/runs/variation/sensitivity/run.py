@@ -72,7 +72,11 @@ def sensitivity_summary(case: VariedCase, found: Sensitivity) -> dict[str, Any]:
         "refused": [{"key": one.key.path, "value": one.key.text, "reason": one.reason} for one in found.refused],
         "held_by_fidelity": list(case.fixed),
         "accuracy": vars(ACCURACY[case.fidelity]),
-        "warnings": [f"{name}: it comes up at the pump as stated; see swashfilm run" for name in found.warnings],
+        "warnings": [
+            *case.point_warnings,
+            *(f"{name}: it comes up at the pump as stated; see swashfilm run" for name in found.warnings),
+        ],
+        "internal_error": found.internal,
         "cost": {"pumps": found.solved, "processor_s": found.seconds},
     }
 

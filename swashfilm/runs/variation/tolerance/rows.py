@@ -96,7 +96,7 @@ def count_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     yield "pumps drawn", str(pumps["drawn"])
     yield "pumps with a result", str(pumps["solved"])
     yield "refused by the geometry", str(sum(pumps["refused"].values()))
-    yield "not converged", str(sum(pumps["failed"].values()))
+    yield "without a result", str(sum(pumps["failed"].values()))
     yield "operating points", str(summary["points"])
 
 

@@ -64,7 +64,7 @@ def tolerance_summary(case: VariedCase, drawing: Drawing, seed: int, found: Tole
              "missing": asdict(one.missing), "missing_at_a_point": asdict(one.anywhere)}
             for one in found.limits
         ],
-        "warnings": [*warnings_of(found), *table_warnings(case.work.solver, found)],
+        "warnings": [*case.point_warnings, *warnings_of(found), *table_warnings(case.work.solver, found)],
         "internal_error": found.internal,
         "cost": {"processor_s": found.seconds},
     }  # fmt: skip
@@ -130,7 +130,7 @@ def warnings_of(found: Tolerance) -> list[str]:
     if found.failed:
         said.append(
             f"points_failed: {sum(found.failed.values())} of {found.pumps} pumps have no result: "
-            f"{by_reason(found.failed)}; start the command again with --resume, or narrow the tolerances"
+            f"{by_reason(found.failed)}; narrow the tolerances of these dimensions"
         )
     rough = [
         one.words

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scipy.optimize import OptimizeResult
 
 from reynolds.errors import NotConverged
 from reynolds.numerics.cache import content_key
@@ -13,6 +14,7 @@ from system.description.keys import pump_keys
 from system.inputs.faults import Fault, InputFaults
 from system.pump_file.file import load_pump
 from system.variation.measures import MEASURES, NUMBERS
+from system.variation.optimisation.ending import ending
 from system.variation.optimisation.evolution import evolve
 from system.variation.optimisation.gradient import descend
 from system.variation.optimisation.method import Method, usual_method
@@ -221,6 +223,14 @@ def test_a_search_tells_whether_it_has_settled(tmp_path, few, enough):
     assert (broken.ending.settled, broken.ending.out_of_steps) == (False, True)
     assert (ended.ending.settled, ended.ending.out_of_steps) == (True, False)
     assert solved(tmp_path / "evolution", asked, toy, evolution(8, 2)).ending is None
+
+
+@pytest.mark.parametrize(("method", "own", "of_the_other"), [(Method.GRADIENT, 9, 5), (Method.TRUST_REGION, 5, 9)])
+def test_steps_are_used_up_by_the_status_of_the_method_alone(method, own, of_the_other):
+    """Status 5 of SLSQP is a singular matrix: more steps would not mend it."""
+    told = [ending(OptimizeResult(success=False, status=status, message="it ends"), method) for status in
+            (own, of_the_other)]  # fmt: skip
+    assert [one.out_of_steps for one in told] == [True, False]
 
 
 def test_choice_of_the_search():
