@@ -130,7 +130,22 @@ def test_floating_films_tell_the_thinnest_the_hottest_and_what_rubs(summary):
     assert tiles["least film of the turn"].value == "0.80 um"
     assert tiles["least film of the turn"].note == "piston-cylinder, 280 deg; limit 0.790 +- 0.020 um"
     assert tiles["hottest oil"].value == "77 degC"
-    assert "Parts rub on each other at piston-cylinder (12 W)." in found.words
+    assert "Parts rub on each other at one piston-cylinder (12 W)." in found.words
+
+
+def test_the_answer_counts_chambers_of_the_less_common_kinds(summary):
+    """A worn slipper runs hotter, rubs and has the least film, whose error bar is not that of the others."""
+    worn = GAP | {"film_thickness_min_m": 0.5e-6, "rubbing_power_W": 40.0, "film_temperature_max_K": 380.0}
+    number = {"extrapolated": 3e-6, "error": 2e-8, "verdict": "converges as expected"}
+    found = pump_answer({
+        **summary, "fidelity": "floating", "gaps": {"slipper": GAP, "valve_plate": GAP},
+        "unlike": {"chamber_3": {"chambers": [3], "gaps": {"slipper": worn}}},
+        "refinement": {"numbers": {"film_least_m.slipper": number}},
+    })  # fmt: skip
+    tiles = {tile.name: tile for tile in found.tiles}
+    assert tiles["least film of the turn"].note == "slipper-swash plate, chamber 3, 280 deg"
+    assert (tiles["hottest oil"].value, tiles["hottest oil"].note) == ("107 degC", "slipper-swash plate, chamber 3")
+    assert "Parts rub on each other at one slipper-swash plate, chamber 3 (40 W)." in found.words
 
 
 @pytest.mark.parametrize(("fidelity", "words"), [("table", "response table"), ("fixed", "positions of the pump file")])

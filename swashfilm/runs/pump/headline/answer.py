@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -21,6 +22,8 @@ from swashfilm.runs.pump.headline.powers import (
     share_text,
 )
 from swashfilm.runs.pump.headline.ribbons import flow_diagram
+from swashfilm.runs.pump.summary import chamber_numbers
+from system.description.gap import Gap
 from system.inputs.shown import pressure_text
 from system.inputs.units import LPM
 
@@ -31,7 +34,27 @@ CAPTION = (
 
 
 RUBBING = 1.0
-"""W of contact friction above which it is mentioned."""
+"""W of contact friction of a part above which it is mentioned."""
+HOTTEST = "film_temperature_max_K"
+
+
+@dataclass(frozen=True)
+class Film:
+    """Film of a gap with its numbers, those of one piston or slipper; chambers: of a less common kind, in words."""
+
+    gap: str
+    chambers: str
+    numbers: Mapping[str, Any]
+
+    @property
+    def name(self) -> str:
+        """Its name in words, with its chambers."""
+        return f"{TITLES[self.gap]}, {self.chambers}" if self.chambers else TITLES[self.gap]
+
+    @property
+    def part(self) -> str:
+        """Its name as that of a single part; the block is one."""
+        return self.name if self.gap == Gap.VALVE_PLATE.value else f"one {self.name}"
 
 
 def pump_answer(summary: Mapping[str, Any]) -> Answer:
@@ -79,31 +102,37 @@ def _film_tiles(summary: Mapping[str, Any]) -> Iterator[Tile]:
     """Yield least film and hottest oil of films that float."""
     if not _floats(summary):
         return
-    gap, of = least_film(summary)
-    place = f"{TITLES[gap]}, {of['film_thickness_min_at_deg']:.0f} deg"
-    exact = _bar(summary, f"film_least_m.{gap}", 1e6, "um")
-    least = f"{of['film_thickness_min_m'] * 1e6:.2f} um"
+    thin = least_film(summary)
+    place = f"{thin.name}, {thin.numbers['film_thickness_min_at_deg']:.0f} deg"
+    exact = "" if thin.chambers else _bar(summary, f"film_least_m.{thin.gap}", 1e6, "um")
+    least = f"{thin.numbers['film_thickness_min_m'] * 1e6:.2f} um"
     yield Tile(least, "least film of the turn", f"{place}; {exact}" if exact else place)
     if (hot := hottest_oil(summary)) is not None:
-        exact = _bar(summary, f"hottest_oil_K.{hot[0]}", 1.0, "degC", 273.15)
-        note = f"{TITLES[hot[0]]}; {exact}" if exact else TITLES[hot[0]]
-        yield Tile(f"{hot[1] - 273.15:.0f} degC", "hottest oil", note)
+        exact = "" if hot.chambers else _bar(summary, f"hottest_oil_K.{hot.gap}", 1.0, "degC", 273.15)
+        note = f"{hot.name}; {exact}" if exact else hot.name
+        yield Tile(f"{hot.numbers[HOTTEST] - 273.15:.0f} degC", "hottest oil", note)
 
 
 def _floats(summary: Mapping[str, Any]) -> bool:
     return Fidelity(summary["fidelity"]) is Fidelity.FLOATING
 
 
-def least_film(summary: Mapping[str, Any]) -> tuple[str, Mapping[str, Any]]:
-    """Return the gap with the least film of the turn and its numbers, chambers of other kinds included."""
-    every = [*summary["gaps"].items(), *(one for kind in summary["unlike"].values() for one in kind["gaps"].items())]
-    return min(every, key=lambda one: float(one[1]["film_thickness_min_m"]))
+def films_of(summary: Mapping[str, Any]) -> list[Film]:
+    """Return the films of every gap, also those of chambers of the less common kinds."""
+    common = [Film(gap, "", numbers) for gap, numbers in summary["gaps"].items()]
+    kinds = summary["unlike"].values()
+    return common + [Film(gap, chamber_numbers(kind), of) for kind in kinds for gap, of in kind["gaps"].items()]
 
 
-def hottest_oil(summary: Mapping[str, Any]) -> tuple[str, float] | None:
-    """Return the gap with the hottest oil and its temperature, K; None without solved temperature."""
-    warm = {gap: of["film_temperature_max_K"] for gap, of in summary["gaps"].items() if "film_temperature_max_K" in of}
-    return max(warm.items(), key=lambda one: float(one[1])) if warm else None
+def least_film(summary: Mapping[str, Any]) -> Film:
+    """Return the film that is thinnest over the turn."""
+    return min(films_of(summary), key=lambda film: float(film.numbers["film_thickness_min_m"]))
+
+
+def hottest_oil(summary: Mapping[str, Any]) -> Film | None:
+    """Return the film with the hottest oil; None without solved temperature."""
+    warm = [film for film in films_of(summary) if HOTTEST in film.numbers]
+    return max(warm, key=lambda film: float(film.numbers[HOTTEST]), default=None)
 
 
 def _delivery_words(summary: Mapping[str, Any]) -> str:
@@ -149,13 +178,13 @@ def _film_words(summary: Mapping[str, Any]) -> Iterator[str]:
             Fidelity.TABLE: "The films come from a response table.",
         }[Fidelity(summary["fidelity"])]
         return
-    gap, of = least_film(summary)
+    thin = least_film(summary)
     yield (
-        f"The thinnest film of the turn is {of['film_thickness_min_m'] * 1e6:.2g} um, in the gap {TITLES[gap]}, at "
-        f"{of['film_thickness_min_at_deg']:.0f} deg of shaft angle."
+        f"The thinnest film of the turn is {thin.numbers['film_thickness_min_m'] * 1e6:.2g} um, in the gap "
+        f"{thin.name}, at {thin.numbers['film_thickness_min_at_deg']:.0f} deg of shaft angle."
     )
-    rubbing = [gap for gap, own in summary["gaps"].items() if own["rubbing_power_W"] > RUBBING]
-    where = _listed([f"{TITLES[gap]} ({summary['gaps'][gap]['rubbing_power_W']:.3g} W)" for gap in rubbing])
-    yield f"Parts rub on each other at {where}." if rubbing else "Contact takes less than 1 W in each gap."
+    rubbing = [film for film in films_of(summary) if film.numbers["rubbing_power_W"] > RUBBING]
+    where = _listed([f"{film.part} ({film.numbers['rubbing_power_W']:.3g} W)" for film in rubbing])
+    yield f"Parts rub on each other at {where}." if rubbing else "Contact takes less than 1 W at each part."
     if (hot := hottest_oil(summary)) is not None:
-        yield f"The oil gets hottest in the gap {TITLES[hot[0]]}: {hot[1] - 273.15:.0f} degC."
+        yield f"The oil gets hottest in the gap {hot.name}: {hot.numbers[HOTTEST] - 273.15:.0f} degC."
