@@ -43,4 +43,6 @@ def cycle_sites(plan: MapPlan, cycle: Cycle) -> Sites:
     box.
     """
     weights = node_weights(plan.axes, cycle)
-    return Sites(plan.points, weights, f"a duty cycle of {cycle.duration:.6g} s, means")
+    time, count = cycle.duration, len(plan.points)
+    words = f"a duty cycle of {time:.6g} s, means; numbers of the worst point over all {count} points"
+    return Sites(plan.points, weights, words)

@@ -112,7 +112,7 @@ def test_sensitivity_over_a_cycle(tmp_path):
     found = sf.sensitivity("ref90", keys=["slipper.film_thickness"], cycle=cycle)
     assert found.points == 5
     assert sum(found.summary["weights"]) == pytest.approx(1.0)
-    assert "duty cycle of 10 s" in found.summary["at"]
+    assert "duty cycle of 10 s, means; numbers of the worst point over all 5 points" in found.summary["at"]
 
 
 def test_a_sensitivity_of_refused_dimensions_alone(tmp_path):
