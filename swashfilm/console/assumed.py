@@ -39,9 +39,10 @@ def show_assumptions(pump: str | Path, assumptions: Sequence[Assumption]) -> Non
 
 
 def show_assumed_in(case: Path) -> None:
-    """As `show_assumed`, for the pump of a film case or transient, if it has one."""
+    """As `show_assumed`, for the pump of a film case, transient or optimisation, if it has one."""
     _, tables = read_toml(case)
-    named = {**tables, **tables.get("film", {}), **tables.get("transient", {})}.get("pump")
+    of_kind = (table for kind in ("film", "transient", "optimise") if isinstance(table := tables.get(kind), dict))
+    named = next((table["pump"] for table in (*of_kind, tables) if "pump" in table), None)
     if isinstance(named, str) and named not in builtin_pumps():
         show_assumed(case.parent / named)
 

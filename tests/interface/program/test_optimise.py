@@ -163,6 +163,15 @@ def test_two_processes_try_the_same_designs(run, tmp_path):
     assert (tmp_path / "run" / "designs.csv").read_text() == (run / "designs.csv").read_text()
 
 
+def test_values_that_a_scaled_pump_assumes_are_told(tmp_path, capsys):
+    (tmp_path / "scant.toml").write_text('[pump]\ndisplacement = "60 cm3/rev"\npistons = 9\n[oil]\ngrade = "ISO VG 46"\n')
+    case = written(tmp_path, CASE.format(pump="scant.toml").replace("generations = 4", "generations = 1"))
+    main(["optimise", str(case), "--workers", "1", "-o", str(tmp_path / "run")])
+    said = capsys.readouterr().out
+    assert "scant.toml leaves" in said
+    assert "values out, which are assumed" in said
+
+
 def test_nothing_feasible(tmp_path, capsys):
     """The constraint in the way is named, and by how much the nearest design misses it."""
     beyond = '"15,35MPa"', '"15,35MPa"\nspeeds = "2200rpm"'
