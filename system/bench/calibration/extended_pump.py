@@ -5,7 +5,7 @@ from dataclasses import fields, replace
 from typing import Any
 
 from reynolds.numerics.arrays import Array
-from system.bench.parameters import DISPLACEMENT, FILE_KEYS, friction_key, pump_with
+from system.bench.parameters import DISPLACEMENT, FILE_KEYS, INLET_SHARE, friction_key, pump_with
 from system.description.effects import PhysicsSection
 from system.description.pump import PumpDescription
 from system.effects.extension import Extension
@@ -53,11 +53,11 @@ def calibrated_pump(pump: PumpDescription, fit: Posterior, laws: Sequence[Extens
     """The pump with a fit's values, and with `laws` switched on; [tolerance] holds the fit's own sigmas.
 
     A key of [tolerance] for several parameters has the widest of them; a value at a bound keeps its sigma. Others keep
-    their tolerance; that of the drawing is omitted for a fitted dimension. Raises ValueError for values outside an
-    effect's limits.
+    their tolerance, and so does inlet_share, whose value no file states; that of the drawing is omitted for a fitted
+    dimension. Raises ValueError for values outside an effect's limits.
     """
     own = extended_pump(pump, values_by_name(fit.parameters, fit.values), laws)
-    stated = {one.name for one in fields(own.tolerance)}
+    stated = {one.name for one in fields(own.tolerance)} - {INLET_SHARE}
     known: dict[str, Any] = {}
     for at, parameter in enumerate(fit.parameters):
         first, _, rest = parameter.name.partition(".")

@@ -54,8 +54,13 @@ def _fit() -> Posterior:
     values = np.array([one.centre for one in bench.parameters])
     for name, factor in (("friction.slipper_swash_plate", 1.3), ("viscosity", 0.97)):
         values[[one.name for one in bench.parameters].index(name)] *= factor
-    read = bench.predict(values)
-    made = Observations(
+    found = linear_posterior(bench, _made(bench.predict(values)))
+    return replace(found, predictions=bench.predict(found.values))
+
+
+def _made(read: np.ndarray) -> Observations:
+    """Readings with the noise of a class A bench."""
+    return Observations(
         channels=tuple(Channel(name.value, name.dimension) for name in SIMULATED),
         values=read,
         sigma=np.full_like(read, 1.0) * [2e-6, 2e-6, 3e-7, 0.3],
@@ -64,8 +69,6 @@ def _fit() -> Posterior:
         quantum=np.zeros(4),
         blocks=np.arange(8),
     )
-    found = linear_posterior(bench, made)
-    return replace(found, predictions=bench.predict(found.values))
 
 
 def test_it_runs_to_the_readings_of_its_fit() -> None:
@@ -121,6 +124,16 @@ def test_a_value_at_a_bound_keeps_its_tolerance() -> None:
     stated = tolerances(PUMP)[0].dead_volume
     assert calibrated_pump(PUMP, held).tolerance.dead_volume == pytest.approx(stated)
     assert calibrated_pump(PUMP, fit).tolerance.dead_volume < 0.999 * stated
+
+
+def test_a_share_of_the_inlet_keeps_its_tolerance() -> None:
+    """A fit knows it better, but its value is in no file: a narrow prior about a half would be another pump's."""
+    pump = load_pump(BENCH, {"tolerance.inlet_share": 0.3})
+    parameters = base_parameters(pump, tolerances(pump)[0])
+    bench = LumpedBench(pump, POINTS, SIMULATED, parameters, inputs=())
+    fit = linear_posterior(bench, _made(bench.predict(np.array([one.centre for one in parameters]))))
+    assert fit.sigma("inlet_share") < 0.2
+    assert calibrated_pump(pump, fit).tolerance.inlet_share == 0.3
 
 
 def test_constant_friction_is_a_level_line() -> None:
