@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from system.description.assumptions import Assumption
 from system.description.pump import PumpDescription
 from system.films.rotor import Rotor, rotor
 from system.inputs.faults import Fault, InputFaults
@@ -16,7 +17,7 @@ from system.inputs.sections.json_schema import Schema, section_schema
 from system.inputs.toml_table import Table
 from system.pump.film_thickness import moved_to, unpressed
 from system.pump.operating import operating_point
-from system.pump_file.file import builtin_pumps, load_pump
+from system.pump_file.file import builtin_pumps, load_known_pump, load_pump
 
 OPERATING = "operating"
 TEMPERATURE = f"{OPERATING}.temperature"
@@ -28,13 +29,15 @@ class CasePump:
     """A pump at its operating point, its source, and the values that the case sets, by path (`piston.mass`).
 
     rotor: with the films of the point's temperature and case pressure; pump: as described, its [operating] temperature
-    that of its file, at which its films have the thickness stated.
+    that of its file, at which its films have the thickness stated; assumptions: for the values that its file leaves
+    out.
     """
 
     rotor: Rotor
     pump: PumpDescription
     source: str
     stated: Mapping[str, Any]
+    assumptions: tuple[Assumption, ...]
 
 
 def read_case_pump(top: Table, film: Table, folder: Path) -> CasePump | None:
@@ -57,14 +60,15 @@ def read_case_pump(top: Table, film: Table, folder: Path) -> CasePump | None:
     at_point = {f"{OPERATING}.{key}": value for key, value in operating.values.items()} if operating else {}
     place = source if source in builtin_pumps() else str(folder / source)
     try:
-        pump = load_pump(place, stated | at_point)
+        known = load_known_pump(place, stated | at_point)
+        pump = known.pump
         described = _at_own_temperature(pump, place, stated | at_point)
     except InputFaults as reason:
         top.faults += [_at_case(fault, stated, film.name("pump")) for fault in reason.faults]
         return None
     point = operating_point(pump)
     warm = moved_to(described, pump.operating)
-    return CasePump(rotor(unpressed(warm, point.case_pressure), point), described, place, stated)
+    return CasePump(rotor(unpressed(warm, point.case_pressure), point), described, place, stated, known.assumptions)
 
 
 def _at_own_temperature(pump: PumpDescription, place: str, values: Mapping[str, Any]) -> PumpDescription:

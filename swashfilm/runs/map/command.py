@@ -148,16 +148,17 @@ def map_case(options: argparse.Namespace, axes: Sequence[MapAxis] | None = None)
     from swashfilm.console.floating_options import floating_options
     from swashfilm.runs.map.run import MapCase
     from system.maps.plan import MOST_POINTS, map_plan
-    from system.pump_file.file import load_pump
+    from system.pump_file.file import load_known_pump
 
     faults = _word_faults(options)
     stated = set_values(options.set, faults)
     own_axes = stated_axes(options, faults)
     expect(options.pump, "pump", "film")
     try:
-        pump = load_pump(options.pump, stated)
+        known = load_known_pump(options.pump, stated)
     except InputFaults as reason:
         raise InputFaults(reason.source, [*faults, *reason.faults], reason.lines) from None
+    pump = known.pump
     plan = map_plan(pump, with_usual(options.plan, pump, own_axes) if axes is None else axes)
     if MANY < plan.size <= MOST_POINTS:
         show_at_once(f"{plan.size} points: each is checked before the first is solved")
@@ -168,7 +169,9 @@ def map_case(options: argparse.Namespace, axes: Sequence[MapAxis] | None = None)
     fidelity = Fidelity(options.fidelity)
     given = given_text(options.pump, stated)
     floating = floating_options(options, pump)
-    return MapCase(plan, fidelity, given, options.table, options.direct, checks, options.resume, floating)
+    return MapCase(
+        plan, fidelity, given, options.table, options.direct, checks, options.resume, floating, known.assumptions
+    )
 
 
 def stated_axes(options: argparse.Namespace, faults: list[Fault]) -> list[MapAxis]:

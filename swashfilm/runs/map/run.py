@@ -10,11 +10,13 @@ from typing import Any
 
 import numpy as np
 
+from swashfilm.console.assumed import scaled_warning
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.schemas import write_new
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.map.files import write_map, write_tables
 from swashfilm.runs.map.summary import map_summary
+from system.description.assumptions import Assumption
 from system.description.pump import PumpDescription
 from system.inputs.faults import Fault, InputFaults
 from system.maps.data import MapData, map_data
@@ -49,7 +51,10 @@ PART = 0.2
 
 @dataclass(frozen=True)
 class MapCase:
-    """A map to solve: plan, fidelity, pump file as text, number of fresh points (None: default), earlier run."""
+    """A map to solve: plan, fidelity, pump file as text, number of fresh points (None: default), earlier run.
+
+    assumptions: for the values that the pump file leaves out.
+    """
 
     plan: MapPlan
     fidelity: Fidelity
@@ -59,6 +64,7 @@ class MapCase:
     checks: int | None = None
     resume: Path | None = None
     floating: FloatingOptions = field(default_factory=FloatingOptions)
+    assumptions: tuple[Assumption, ...] = ()
 
     @property
     def cost(self) -> float:
@@ -139,6 +145,8 @@ def solve_map(asked: MapCase, folder: Path, executor: Executor, report: Report) 
         "workers": executor.workers,
         "wall_s": time.monotonic() - began,
     }
+    summary["assumptions"] += map(str, asked.assumptions)
+    summary["warnings"] += scaled_warning(asked.assumptions)
     write_map(folder / "map.nc", data, error, summary | {"resolved_toml": resolved_toml(plan.pump)})
     write_tables(folder, data)
     write_json(folder / "summary.json", summary)

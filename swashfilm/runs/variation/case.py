@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from swashfilm.console.assumed import scaled_warning
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.floating_options import alike_faults, floating_faults, floating_options
 from swashfilm.console.inputs import COMMAND_LINE, expect, given_text
@@ -17,6 +18,7 @@ from swashfilm.runs.map.command import solving_faults, stated_axes, with_usual
 from swashfilm.runs.map.duty.cycle_file import read_cycle
 from swashfilm.runs.map.run import POINT_COST, MapCase, kept_table
 from swashfilm.runs.variation.options import chosen_keys, needs_keys
+from system.description.assumptions import Assumption
 from system.description.keys import PumpKey, pump_keys
 from system.description.pump import PumpDescription
 from system.inputs.faults import Fault, InputFaults
@@ -25,7 +27,7 @@ from system.maps.point import DirectSolver, LumpedSolver, MapSolver, TableSolver
 from system.points.floating_gaps import FloatingOptions
 from system.points.table.response_table import ResponseTable
 from system.points.table.sources import Source, solver_of
-from system.pump_file.file import load_pump
+from system.pump_file.file import KnownPump, load_known_pump
 from system.variation.sites import Sites, cycle_sites, plan_sites
 from system.variation.solving import VariedWork, variable_keys
 from system.variation.together import TogetherSolver, solves_together
@@ -37,7 +39,7 @@ CYCLE_LEVELS = {MapInput.PRESSURE: 5}
 @dataclass(frozen=True)
 class VariedCase:
     """A pump to vary: the work, the chosen dimensions, the plan and the text of its file; fixed: dimensions that the
-    fidelity cannot vary."""
+    fidelity cannot vary; assumptions: for the values that its file leaves out."""
 
     work: VariedWork
     keys: Mapping[str, PumpKey]
@@ -47,6 +49,7 @@ class VariedCase:
     given: str
     cycle: Path | None
     resume: Path | None
+    assumptions: tuple[Assumption, ...]
 
     @property
     def pump(self) -> PumpDescription:
@@ -54,9 +57,9 @@ class VariedCase:
         return self.work.pump
 
     @property
-    def point_warnings(self) -> tuple[str, ...]:
-        """Warnings of the operating points, such as of those beyond the pump's rating."""
-        return tuple(self.plan.checked().warnings.values())
+    def input_warnings(self) -> tuple[str, ...]:
+        """Warnings of the operating points, such as of those beyond the pump's rating, and of values not stated."""
+        return *self.plan.checked().warnings.values(), *scaled_warning(self.assumptions)
 
     def seconds(self, pumps: int) -> float:
         """Return the processor time (s), about, of so many pumps."""
@@ -84,10 +87,8 @@ def varied_case(
     set_keys = set_values(options.set, faults)
     own_axes = stated_axes(options, faults)
     expect(options.pump, "pump", "film")
-    try:
-        pump = load_pump(options.pump, set_keys)
-    except InputFaults as reason:
-        raise InputFaults(reason.source, [*faults, *reason.faults], reason.lines) from None
+    stated_pump = _stated_pump(options, set_keys, faults)
+    pump = stated_pump.pump
     axes = with_usual(options.plan, pump, own_axes)
     plan = map_plan(pump, axes if options.cycle is None else cycle_axes(pump, axes, options.cycle))
     faults += [*plan.checked().faults, *alike_faults(pump)]
@@ -105,13 +106,21 @@ def varied_case(
         raise InputFaults(COMMAND_LINE, faults)
     fidelity = Fidelity(options.fidelity)
     at_once = together and fidelity is Fidelity.LUMPED and solves_together(pump)
-    floating = floating_options(options, pump)
-    solver = TogetherSolver() if at_once else varied_solver(fidelity, floating, table)
+    solver = TogetherSolver() if at_once else varied_solver(fidelity, floating_options(options, pump), table)
     work = VariedWork(pump, solver, varied_sites(plan, options.cycle))
     fixed = tuple(path for path in stated if path not in known)
     return VariedCase(
-        work, keys, fixed, fidelity, plan, given_text(options.pump, set_keys), options.cycle, options.resume
-    )
+        work, keys, fixed, fidelity, plan, given_text(options.pump, set_keys), options.cycle, options.resume,
+        stated_pump.assumptions,
+    )  # fmt: skip
+
+
+def _stated_pump(options: argparse.Namespace, values: Mapping[str, object], faults: Sequence[Fault]) -> KnownPump:
+    """Return the pump of the command line with these values; raise InputFaults with its faults and `faults`."""
+    try:
+        return load_known_pump(options.pump, values)
+    except InputFaults as reason:
+        raise InputFaults(reason.source, [*faults, *reason.faults], reason.lines) from None
 
 
 def cycle_axes(pump: PumpDescription, axes: Sequence[MapAxis], cycle: Path) -> list[MapAxis]:

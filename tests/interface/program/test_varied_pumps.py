@@ -132,6 +132,16 @@ def test_points_beyond_the_rating_are_told():
         assert {"operating.pressure", "operating.speed"} <= set(named)
 
 
+def test_values_that_a_pump_file_leaves_out_are_told_in_the_run(tmp_path):
+    scant = tmp_path / "scant.toml"
+    scant.write_text('[pump]\ndisplacement = "60 cm3/rev"\npistons = 9\n[oil]\ngrade = "ISO VG 46"\n')
+    found = sf.map(scant, fidelity="lumped", speeds="1000,1500rpm", pressures="10,20MPa", displacements="1")
+    assert any(one.startswith("pump.piston_diameter") for one in found.summary["assumptions"])
+    for own in (found, sf.sensitivity(scant, keys=["oil.density"])):
+        (warning,) = (one for one in own.warnings if one.startswith("values_scaled"))
+        assert "values of the pump are not stated" in warning
+
+
 def test_an_internal_error_at_a_pump_ends_a_sensitivity_with_1(tmp_path, monkeypatch):
     solve, stated = LumpedSolver.solve, load_pump("ref90").oil.density
 

@@ -136,7 +136,7 @@ def _read(path: Path, text: str, top: Table, options: argparse.Namespace) -> Opt
                       varied_sites(plan, cycle), whole=True)  # fmt: skip
     fixed = tuple(key for key in pump_keys(pump.pump) if key not in known)
     keys = {one.name: one.key for one in space}
-    varied = VariedCase(work, keys, fixed, fidelity, plan, text, cycle, options.resume)
+    varied = VariedCase(work, keys, fixed, fidelity, plan, text, cycle, options.resume, pump.assumptions)
     return OptimiseCase(path.stem, varied, problem, search)
 
 

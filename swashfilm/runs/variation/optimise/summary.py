@@ -145,7 +145,7 @@ def _obstacles(found: Optimisation) -> list[dict[str, Any]]:
 
 def _warnings(case: OptimiseCase, found: Optimisation, design: Design) -> Iterator[str]:
     """Yield warnings, `name: text; remedy` each."""
-    yield from case.varied.point_warnings
+    yield from case.varied.input_warnings
     counts = _counts(found)
     if not counts["feasible"]:
         yield _nothing_feasible(found)

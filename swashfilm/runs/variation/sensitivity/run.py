@@ -73,7 +73,7 @@ def sensitivity_summary(case: VariedCase, found: Sensitivity) -> dict[str, Any]:
         "held_by_fidelity": list(case.fixed),
         "accuracy": vars(ACCURACY[case.fidelity]),
         "warnings": [
-            *case.point_warnings,
+            *case.input_warnings,
             *(f"{name}: it comes up at the pump as stated; see swashfilm run" for name in found.warnings),
         ],
         "internal_error": found.internal,

@@ -64,7 +64,7 @@ def tolerance_summary(case: VariedCase, drawing: Drawing, seed: int, found: Tole
              "missing": asdict(one.missing), "missing_at_a_point": asdict(one.anywhere)}
             for one in found.limits
         ],
-        "warnings": [*case.point_warnings, *warnings_of(found), *table_warnings(case.work.solver, found)],
+        "warnings": [*case.input_warnings, *warnings_of(found), *table_warnings(case.work.solver, found)],
         "internal_error": found.internal,
         "cost": {"processor_s": found.seconds},
     }  # fmt: skip
