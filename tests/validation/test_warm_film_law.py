@@ -17,7 +17,7 @@ from reynolds.problem import HALF
 from reynolds.thermal.coupling import ThermalCase, agree
 from reynolds.thermal.film_profile import levels
 from system import SMOOTH, BenchState, Gap, GapCourse, Rotor, floating_parts, load_pump, operating_point, rotor
-from system.effects.laws.film import ISENTROPIC_RISE, HeatShares, film_rise
+from system.effects.laws.film import THROTTLING_HEAT, HeatShares, film_rise
 from system.effects.state import warmed
 from system.films.heat import block_heat, slipper_heat
 from system.films.instant import chambers_at
@@ -77,7 +77,7 @@ def warm(solver: FilmSolver, cold, heat: GapHeat):
 
 def law_of(gap: Gap, at: Rotor, pressure: float, leakage: float, shear: float, area: float):
     """Film's rise by the law; the film's heat knows no compression: throttling warms by dp/(rho c)."""
-    oil, plate, slipper = REF90.oil, REF90.valve_plate, REF90.slipper
+    plate, slipper = REF90.valve_plate, REF90.slipper
     width, speed, film = {
         Gap.SLIPPER: (
             2 * slipper.land_outer_radius, at.point.shaft_speed * REF90.pump.pitch_radius, slipper.film_thickness
@@ -87,7 +87,7 @@ def law_of(gap: Gap, at: Rotor, pressure: float, leakage: float, shear: float, a
             plate.film_thickness,
         ),
     }[gap]  # fmt: skip
-    plain = pressure / (oil.density * oil.specific_heat * ISENTROPIC_RISE)
+    plain = pressure / THROTTLING_HEAT
     one = np.ones((1, 1))
     course = GapCourse(
         pressure=plain * one, sliding_speed=speed * one, film=film * one, normal_force=one, coulomb=0 * one,

@@ -13,8 +13,11 @@ from system.effects.state import GAPS, unchanged, warmed
 from system.pump.film_thickness import LEAST_FILM
 from system.pump.land_losses import slipper_way
 
-ISENTROPIC_RISE = 0.45e-6
-"""K/Pa by which throttled mineral oil warms, (1 - alpha T)/(rho cp)."""
+THROTTLING_HEAT = 0.75
+"""Of the work of throttling, that warms the oil: 1 - alpha T, alpha 6 to 8e-4 1/K of oils and of water in glycol.
+
+0.45 K/MPa of a mineral oil.
+"""
 WARM_PASSES = 8
 """Rounds between a film's heat and its temperature: within 1 % of rises up to 30 K, and 5 % up to 60 K.
 
@@ -116,9 +119,10 @@ def film_heating(values: Values, courses: Courses, state: BenchState) -> Effects
 class HeatShares:
     """Shares of a film's heat by path, each 0 to 1; the defaults are those of films solved with heat.
 
-    carried: share of the heat that leaves with the oil before it reaches a wall; throttled: share of 0.45 K/MPa that
-    warms the film above the case: 1 where oil enters at the case's temperature, less from cooler chambers; carry_over:
-    share of the film's own warm oil in the oil that sliding draws in (Ettles 1969: .7 to .9 of pads).
+    carried: share of the heat that leaves with the oil before it reaches a wall; throttled: share of the heat of
+    throttling that warms the film above the case: 1 where oil enters at the case's temperature, less from cooler
+    chambers; carry_over: share of the film's own warm oil in the oil that sliding draws in (Ettles 1969: .7 to .9 of
+    pads).
     """
 
     carried: float = 0.0
@@ -129,15 +133,16 @@ class HeatShares:
 def film_rise(resistance: float, shares: HeatShares, own: GapCourse, state: BenchState) -> Array:
     """Kelvin (N,) by which a film is warmer than the case: heat P over G = A/R to the walls and C with the oil.
 
-    P: the pair's loss, Coulomb and shear, and q 0.45 K/MPa of throttling; C = rho c (leakage + (1 - k) h U w/2, the
-    cool oil that sliding draws in over the width w). theta = P/(G + C), of which s P leaves with the oil alone: theta =
-    P (1 + s G/C)/(G + C). s, q, k of `shares`. Solved by Newton's method with viscosity falling by THINNING a kelvin.
+    P: the pair's loss, Coulomb and shear, and q THROTTLING_HEAT of the work of throttling; C = rho c (leakage + (1 - k)
+    h U w/2, the cool oil that sliding draws in over the width w). theta = P/(G + C), of which s P leaves with the oil
+    alone: theta = P (1 + s G/C)/(G + C). s, q, k of `shares`. Solved by Newton's method with viscosity falling by
+    THINNING a kelvin.
     """
     oil, area = state.geometry.oil, own.land_area
     heat = oil.density * oil.specific_heat
     drawn = (1.0 - shares.carry_over) * heat * 0.5 * own.width * (own.film * own.sliding_speed).mean(axis=1)
     leaked = heat * np.abs(own.leakage).mean(axis=1)
-    throttled = shares.throttled * ISENTROPIC_RISE * heat * (own.leakage * own.pressure).mean(axis=1)
+    throttled = shares.throttled * THROTTLING_HEAT * (own.leakage * own.pressure).mean(axis=1)
     rubbed, sheared = own.coulomb.mean(axis=1), own.viscous.mean(axis=1)
     rise = np.zeros_like(area)
     for _ in range(WARM_PASSES):

@@ -105,7 +105,7 @@ def test_heating_solves_its_balance(resistance, share, throttled, back):
     ratio = float(warmed(at, np.array([rise]))[0])
     heat = REF90.oil.density * REF90.oil.specific_heat
     carried = heat * (5e-6 / ratio + (1.0 - back) * 0.5 * 0.028 * 10e-6 * 9.9) * rise
-    gained = 120.0 + ratio * 90.0 + throttled * 0.45e-6 * 35e6 * heat * 5e-6 / ratio
+    gained = 120.0 + ratio * 90.0 + throttled * 0.75 * 35e6 * 5e-6 / ratio
     if resistance > 0.0:
         walls = 405e-6 / resistance
         assert rise * (walls + carried / rise) == pytest.approx(gained * (1 + share * walls * rise / carried), rel=1e-3)
@@ -114,6 +114,16 @@ def test_heating_solves_its_balance(resistance, share, throttled, back):
     values = {"piston": resistance, "slipper": 0.0, "valve_plate": 0.0, "carried_share": share}
     values |= {"throttled_share": throttled, "carry_over": back}
     assert film_laws.film_heating(values, given, at).viscous[0, 0, 0] == pytest.approx(ratio, rel=1e-12)
+
+
+@pytest.mark.parametrize(("density", "specific_heat"), [(860.0, 1950.0), (1080.0, 3200.0)])
+def test_throttling_warms_any_oil_by_less_than_its_work(density, specific_heat):
+    """No wall takes heat, nothing slides: 35 MPa warm a mineral oil by 16 K, water in glycol by 8 K."""
+    oil = replace(REF90.oil, density=density, specific_heat=specific_heat)
+    at = replace(state(2100), geometry=replace(REF90, oil=oil))
+    given = courses(coulomb=0.0, viscous=0.0, speed=0.0)[Gap.PISTON]
+    (rise,) = film_laws.film_rise(1e9, film_laws.HeatShares(), given, at)
+    assert rise == pytest.approx(0.75 * 35e6 / (density * specific_heat), rel=0.01)
 
 
 def test_rounds_come_as_near_as_they_say(monkeypatch):
