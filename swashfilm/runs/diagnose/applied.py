@@ -54,7 +54,8 @@ def _fidelities(pump: PumpDescription) -> Iterator[str]:
             yield f"--fidelity {fidelity} solves {_names(solved)} in the films."
         if closed:
             yield f"--fidelity {fidelity} has {_names(closed)} as closed-form laws."
-    yield "--fidelity table has the films of its points, which swashfilm table solves, and the other laws."
+    if kinds(pump).alike:
+        yield "--fidelity table has the films of its points, which swashfilm table solves, and the other laws."
 
 
 def _names(effects: Sequence[EffectId]) -> str:

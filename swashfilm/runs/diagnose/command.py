@@ -97,6 +97,7 @@ def _watch(options: argparse.Namespace, workers: int) -> None:
     from diagnosis.study.acceptance import checked_recording
     from swashfilm.output.page import PAGE
     from swashfilm.output.run_folder import final_folder, run_folder
+    from swashfilm.runs.diagnose.films import film_options_of
     from swashfilm.runs.diagnose.run import write_finding
     from swashfilm.runs.diagnose.watch import Answer, answer_of, watch
     from system.effects.catalogue.entries import CATALOGUE, with_films_solved
@@ -104,6 +105,7 @@ def _watch(options: argparse.Namespace, workers: int) -> None:
     from system.work.progress import silent
 
     known = load_known_pump(options.pump, set_values_of(options))
+    film_options_of(options, known)  # their faults; a watch has no floating films
     catalogue = with_films_solved(known.pump, silent) if options.film_tables else CATALOGUE
 
     def diagnosed() -> Answer:

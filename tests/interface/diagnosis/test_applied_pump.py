@@ -50,3 +50,13 @@ def test_each_fidelity_is_named_with_what_it_does_of_the_effects():
     assert "fixed has slipper_lift as closed-form laws" in lifted
     assert "floating solves slipper_lift in the films" in lifted
     assert "It runs in every fidelity" in _applied(PUMP)
+
+
+def test_a_table_is_named_for_chambers_that_are_alike_alone():
+    """A response table has the films of one kind of chamber: the fidelity refuses a pump of several."""
+    heated = _with(EffectId.VISCOSITY_PRESSURE)
+    worn = replace(heated, single_pistons=((3, replace(heated.piston, radial_clearance=20e-6)),))
+    assert "--fidelity table has" in _applied(heated)
+    told = _applied(worn)
+    assert "Its chambers differ" in told
+    assert "--fidelity table" not in told

@@ -125,6 +125,13 @@ def test_ctrl_c_ends_a_watch_as_any_command(
     assert "interrupted" in told.err
 
 
+def test_a_watch_tells_faults_of_film_options(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["diagnose", "ref90", str(tmp_path), "--watch", "--fidelity", "lumpd"]) == 2
+    assert "one of lumped" in capsys.readouterr().err
+    assert main(["diagnose", "ref90", str(tmp_path), "--watch", "--points", "64"]) == 2
+    assert "--fidelity floating beside it" in capsys.readouterr().err
+
+
 def test_a_watch_needs_a_folder_and_writes_no_single_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     words = ["diagnose", "ref90", str(tmp_path / "none"), "--watch", "--apply", str(tmp_path / "found.toml")]
     assert main(words) == 2
