@@ -60,7 +60,8 @@ class Extension:
     def stated_beside(self, own: Values, values: Mapping[str, float]) -> dict[str, float]:
         """`stated`, each size added to that of a table `own` whose law acts too, within the size's bounds.
 
-        The sum of two laws at once: exact where their changes add, else to first order in the sizes.
+        The sum of two laws at once: exact where their changes add, else to first order in the sizes. Scales and form
+        are those of this law; a size of the table that it does not have is left out.
         """
         table = self.stated(values)
         for one in self.parameters:
