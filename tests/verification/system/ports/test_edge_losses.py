@@ -129,10 +129,10 @@ def test_films_that_are_parallel_lose_as_the_lumped_law(tmp_path):
     motion = piston_motion(plain, point)
     found = creeping_film_leaks(edged, lumped_leaks(plain, point, motion), point.viscosity)
     law = lumped_leaks(edged, point, motion)
-    assert found.conductance == pytest.approx(law.conductance, rel=1e-6)
+    assert found.conductance == pytest.approx(law.conductance, rel=1e-6, abs=0.0)
     drop = np.full(motion.shaft_angle.size, 3e7)
     one, other = (with_inertia(edged, leaks, drop, point.viscosity, bore=True) for leaks in (found, law))
-    assert one.conductance == pytest.approx(other.conductance, rel=1e-6)
+    assert one.conductance == pytest.approx(other.conductance, rel=1e-6, abs=0.0)
     assert np.all(one.conductance[1:] < law.conductance[1:])
     assert np.array_equal(one.conductance[0], law.conductance[0])
 
@@ -158,12 +158,12 @@ def test_a_table_of_poiseuille_flow_is_the_capillary():
     table = poiseuille(length / d)
     assert table.equal_length(d) == pytest.approx(length, rel=1e-12)
     capillary = hagen_poiseuille_conductance(d, length, VISCOSITY)
-    assert table.conductance(d, VISCOSITY) == pytest.approx(capillary, rel=1e-12)
+    assert table.conductance(d, VISCOSITY) == pytest.approx(capillary, rel=1e-12, abs=0.0)
     fed = supply(PocketOrifice(d, length, None, table), VISCOSITY, DENSITY)
     for drop in (-2e5, 0.0, 1e-3, 2e5):
         flow, slope = fed(drop)
         assert flow == pytest.approx(capillary * drop, rel=1e-12)
-        assert slope == pytest.approx(capillary, rel=1e-12)
+        assert slope == pytest.approx(capillary, rel=1e-12, abs=0.0)
 
 
 def test_flow_and_drop_of_a_table_are_each_other_s_inverse():
@@ -175,7 +175,7 @@ def test_flow_and_drop_of_a_table_are_each_other_s_inverse():
     assert table.drop(np.array([flow for flow, _ in flows]), 1e-3, VISCOSITY, DENSITY) == pytest.approx(drops)
     for drop, (_, slope) in zip(drops, flows, strict=True):
         beside = [float(table.flow(drop * (1.0 + e), 1e-3, VISCOSITY, DENSITY)[0]) for e in (-1e-5, 1e-5)]
-        assert slope == pytest.approx((beside[1] - beside[0]) / (2e-5 * drop), rel=1e-6)
+        assert slope == pytest.approx((beside[1] - beside[0]) / (2e-5 * drop), rel=1e-6, abs=0.0)
 
 
 def test_a_bore_s_file_takes_the_place_of_its_length(tmp_path):
@@ -195,14 +195,14 @@ def test_a_bore_s_file_takes_the_place_of_its_length(tmp_path):
     motion = piston_motion(pump, point)
     wanted = lumped_leaks(pump, point, motion).conductance[1]
     same = load_pump(BENCH, {"slipper.orifice_file": file(own)})
-    assert lumped_leaks(same, point, motion).conductance[1] == pytest.approx(wanted, rel=1e-9)
+    assert lumped_leaks(same, point, motion).conductance[1] == pytest.approx(wanted, rel=1e-9, abs=0.0)
     assert leakage({"slipper.orifice_file": file(own)}).leakage_flow.slipper == pytest.approx(
         leakage({}).leakage_flow.slipper, rel=1e-8
     )
     longer = load_pump(BENCH, {"slipper.orifice_length": "10 mm"})
     twice = load_pump(BENCH, {"slipper.orifice_file": file(2.0 * own)})
     assert lumped_leaks(twice, point, motion).conductance[1] == pytest.approx(
-        lumped_leaks(longer, point, motion).conductance[1], rel=1e-9
+        lumped_leaks(longer, point, motion).conductance[1], rel=1e-9, abs=0.0
     )
     left = [through_orifice(np.array([1e9]), bench_state(one, columns(point), np.zeros(1))) for one in (twice, longer)]
     assert left[0] == pytest.approx(left[1], rel=1e-9)
