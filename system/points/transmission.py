@@ -18,7 +18,8 @@ class Transmission:
     """Both machines at their common operating speeds.
 
     The motor is a pump that turns the same way with the high pressure at its suction port: its powers count into it, so
-    its shaft power is negative, and its efficiencies as a pump are not defined (`no_delivery`).
+    its shaft power is negative where it drives a load, and its efficiencies as a pump are not defined (`no_delivery`).
+    A positive one is what its load must give for that speed: the pressure difference is less than its friction takes.
     """
 
     pump: PumpPoint
