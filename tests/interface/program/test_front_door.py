@@ -163,7 +163,7 @@ def test_a_study_over_a_key(tmp_path):
 
 
 def test_maps_duty_and_comparison(tmp_path):
-    levels = {"pressures": ["10 MPa", 20e6, "30 MPa"], "displacements": [0.5, 1.0], "check": 0}
+    levels = {"pressures": ["10 MPa", 20e6, "30 MPa"], "displacements": [0.5, 1.0], "check": 4}
     found = sf.map("ref90", speeds="2100rpm", **levels, **LUMPED)
     assert found.solved == 6
     assert len(found.to_pandas()) == 6

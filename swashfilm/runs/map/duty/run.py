@@ -51,7 +51,7 @@ def known_error(data: MapData, error: MapError | None) -> MapError:
     """
     known = error or left_out_error(data)
     if known is None:
-        expected = "three levels or more of each input that varies, or fresh points (swashfilm map .. --check 8)"
+        expected = "three levels or more of each input that varies, or a map with --check 8"
         raise InputFaults(data.name, [Fault("map", "no measure of its error between levels", expected)])
     return known
 
