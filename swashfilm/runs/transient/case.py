@@ -9,6 +9,7 @@ import numpy as np
 
 from swashfilm.case.gap.pump import CasePump, own_rows, pump_tables_schema, read_case_pump
 from swashfilm.case.settings import read_set
+from system.description.assumptions import Assumption
 from system.inputs.faults import InputFaults
 from system.inputs.sections.fields import Points, Positive, Text
 from system.inputs.sections.json_schema import Schema, quantity_schema, section_schema, tables_schema
@@ -45,12 +46,16 @@ class TransientSection:
 
 @dataclass(frozen=True)
 class StatedTransient:
-    """A transient case: name, text of the file, resolved text, and the case in SI."""
+    """A transient case: name, text of the file, resolved text, and the case in SI.
+
+    assumptions: for the values that the pump file leaves out.
+    """
 
     name: str
     text: str
     resolved: str
     asked: TransientCase
+    assumptions: tuple[Assumption, ...]
 
 
 def load_transient(path: Path, values: Mapping[str, object] | None = None) -> StatedTransient:
@@ -67,7 +72,7 @@ def load_transient(path: Path, values: Mapping[str, object] | None = None) -> St
         _hold_pump(table, pump, section)
     if top.faults or section is None or pump is None:
         raise InputFaults(str(path), top.faults, fault_lines(text, top.faults))
-    return StatedTransient(path.stem, text, _resolved(section, pump), _asked(section, pump))
+    return StatedTransient(path.stem, text, _resolved(section, pump), _asked(section, pump), pump.assumptions)
 
 
 def transient_schema() -> Schema:

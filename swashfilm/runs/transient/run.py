@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from swashfilm.console.assumed import scaled_warning
 from swashfilm.output.data.files import write_netcdf
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.transient.case import StatedTransient
@@ -19,6 +20,8 @@ def solve_transient(stated: StatedTransient) -> TransientRun:
     found = run_transient(stated.asked)
     data = transient_dataset(found, stated.name)
     summary = transient_summary(found, stated.name, data)
+    summary["assumptions"] += map(str, stated.assumptions)
+    summary["warnings"] += scaled_warning(stated.assumptions)
 
     def write(folder: Path) -> tuple[str, ...]:
         (folder / "input.toml").write_text(stated.text, encoding="utf-8")

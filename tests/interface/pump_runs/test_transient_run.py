@@ -199,3 +199,15 @@ def test_documented_keys_are_those_of_the_case():
     part = text.split("### [transient]", 1)[1].split("\n## ", 1)[0]
     documented = set(re.findall(r"^\| `(\w+)` \|", part, re.MULTILINE))
     assert documented == set(fields_of(TransientSection))
+
+
+def test_values_that_the_pump_file_leaves_out_are_told_in_the_run(tmp_path: Path) -> None:
+    (tmp_path / "scant.toml").write_text(
+        '[pump]\ndisplacement = "60 cm3/rev"\npistons = 9\n[oil]\ngrade = "ISO VG 46"\n', "utf-8"
+    )
+    text = SHORT.replace('"ref90"', '"scant.toml"').replace('"20 ms"', '"2 ms"')
+    (tmp_path / "short.toml").write_text(text.replace(', ["5 ms", "0.6 MPa"]', ""), "utf-8")
+    assert run_command(["transient", str(tmp_path / "short.toml"), "-o", str(tmp_path / "out")]) == 0
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text("utf-8"))
+    assert any(one.startswith("values_scaled: ") for one in summary["warnings"])
+    assert any(one.startswith("pump.piston_diameter") for one in summary["assumptions"])
