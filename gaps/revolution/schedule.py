@@ -10,7 +10,7 @@ from reynolds.floating.stage import Closeness
 from reynolds.numerics.arrays import Array
 
 MORE_EXACT = 10.0  # times, at most, are the steps of the first turns
-APART = 1e-9  # of the turn: nodes nearer than this are one
+APART = 1e-9  # rad: nodes nearer than this are one
 FEWEST = 24  # nodes of a whole turn with steps as wide as their error allows
 
 
@@ -70,18 +70,22 @@ class Schedule:
     @property
     def nodes(self) -> Array:
         """Times (s) at which steps end: those of kept films, of the breaks and of the last angle."""
-        inside = self.breaks[(self.breaks > 0.0) & (self.breaks < self.angles[-1])]
-        return np.unique(np.concatenate([self.kept, inside, self.angles[-1:]])) / self.speed
+        stops = np.append(self.kept, self.angles[-1])
+        inside = _apart(self.breaks[(self.breaks > 0.0) & (self.breaks < self.angles[-1])], stops)
+        return np.unique(np.append(stops, inside)) / self.speed
 
     @property
     def wide(self) -> Schedule:
         """The same turn with its last angle alone to report, and few nodes besides its breaks."""
         span = self.angles[-1]
         count = max(1, round(FEWEST * span / (2.0 * np.pi)))
-        nodes = span * np.arange(1, count) / count
-        if self.breaks.size:  # round-off beside a break would be a step of its own
-            nodes = nodes[np.abs(nodes[:, None] - self.breaks).min(axis=1) > APART * span]
+        nodes = _apart(span * np.arange(1, count) / count, self.breaks)
         return Schedule(self.speed, self.angles[-1:], np.union1d(self.breaks, nodes), keep=2)
+
+
+def _apart(angles: Array, others: Array) -> Array:
+    """Those of the angles (rad) that lie at none of the others: round-off beside one would be a step of its own."""
+    return angles[np.abs(angles[:, None] - others).min(axis=1, initial=np.inf) > APART]
 
 
 def evenly(speed: float, steps: int, span: float = 2.0 * np.pi, keep: int = 10) -> Schedule:

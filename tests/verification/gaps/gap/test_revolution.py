@@ -170,6 +170,8 @@ def test_a_break_beside_a_node_is_one():
     even = evenly(SPEED, 180)
     beside = np.nextafter(2.0 * np.pi * np.arange(1, 24) / 24, 7.0)  # the turn of wide steps has these angles
     assert np.diff(replace(even, breaks=beside).wide.nodes).min() > 0.1 / SPEED
+    kept = np.nextafter(even.kept, 7.0)
+    np.testing.assert_array_equal(replace(even, breaks=kept).nodes, even.nodes)
 
 
 def test_goes_on_from_another():
