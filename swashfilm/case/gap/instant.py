@@ -14,6 +14,7 @@ from reynolds.numerics.arrays import Array
 from swashfilm.case.gap.physics import SwitchesSection, choices
 from swashfilm.case.gap.position import LOADS, POSITIONS, Load, Position, pose_of, stated_position, touching, with_arm
 from swashfilm.case.gap.pump import CasePump, own_rows, read_case_pump
+from system.description.assumptions import Assumption
 from system.description.gap import Gap
 from system.films.cycle import GapPhysics
 from system.films.parts import FloatingParts, floating_parts
@@ -50,7 +51,7 @@ class GapCase:
 
     chamber_pressure (1,) Pa, or (z,) by chamber for the valve plate. position (k,) m in the coordinates of the
     gap's film; None: equilibrium position, under `load` or by default under the pump's forces. `finer`: factor on
-    the usual number of cells in each direction.
+    the usual number of cells in each direction; `assumptions`: for the values that the pump file leaves out.
     """
 
     name: str
@@ -64,6 +65,7 @@ class GapCase:
     physics: Physics
     position: Array | None
     load: Load | None
+    assumptions: tuple[Assumption, ...]
     finer: int = 1
 
     def refined(self) -> GapCase:
@@ -100,7 +102,7 @@ def read_gap_case(name: str, text: str, top: Table, film: Table, folder: Path) -
         return None
     pose = None if position is None else pose_of(position, gap, known, parts, angle, pressures)
     forces = None if load is None else with_arm(load, known, angle)
-    case = GapCase(name, text, "", gap, known, parts, angle, pressures, physics, pose, forces)
+    case = GapCase(name, text, "", gap, known, parts, angle, pressures, physics, pose, forces, pump.assumptions)
     return replace(case, resolved=_resolved(case, pump)) if _is_possible(top, film, case) else None
 
 

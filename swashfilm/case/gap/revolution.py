@@ -11,6 +11,7 @@ from swashfilm.case.gap.chamber_pressure import ChamberPressure, read_chamber_pr
 from swashfilm.case.gap.instant import FORMAT
 from swashfilm.case.gap.physics import SwitchesSection, choices
 from swashfilm.case.gap.pump import CasePump, own_rows, read_case_pump
+from system.description.assumptions import Assumption
 from system.description.gap import Gap
 from system.films.parts import floating_parts
 from system.films.rotor import Rotor
@@ -62,7 +63,8 @@ class GapOverTurn(Protocol):
 class RevolutionCase:
     """A validated case of a gap over the turn: name, text of the file, resolved text, and its data (SI).
 
-    chamber_pressure: of one chamber over its angle; options: physics, steps, accuracy and mesh.
+    chamber_pressure: of one chamber over its angle; options: physics, steps, accuracy and mesh; assumptions: for the
+    values that the pump file leaves out.
     """
 
     name: str
@@ -72,6 +74,7 @@ class RevolutionCase:
     rotor: Rotor
     chamber_pressure: ChamberPressure
     options: FloatingOptions
+    assumptions: tuple[Assumption, ...]
 
     def refined(self) -> RevolutionCase:
         """Return the same gap on a mesh twice finer, with finer steps."""
@@ -108,7 +111,7 @@ def read_revolution_case(name: str, text: str, top: Table, film: Table, folder: 
         return None
     of_pump = floating_effects(pump.rotor, floating_parts(pump.rotor.pump), pump.rotor.pump, options.physics)
     options = replace(options, physics=getattr(of_pump.physics, gap.value))
-    case = RevolutionCase(name, text, "", gap, pump.rotor, pressure, options)
+    case = RevolutionCase(name, text, "", gap, pump.rotor, pressure, options, pump.assumptions)
     return replace(case, resolved=_resolved(case, pump))
 
 

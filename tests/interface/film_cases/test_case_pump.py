@@ -8,6 +8,7 @@ from swashfilm.__main__ import main
 from swashfilm.case.gap.instant import GapCase
 from swashfilm.case.study import StudyCase, load_film
 from swashfilm.runs.film.solve.study import solve_case
+from swashfilm.runs.film.summary import film_summary
 from system import InputFaults
 
 GAP = 'format = 1\n[film]\ngap = "piston"\npump = "ref90"\n'
@@ -105,3 +106,11 @@ def test_walls_that_overlap_are_told_by_the_keys_of_the_case(here):
     path.write_text(text + '[physics]\nsurfaces = "smooth"\n', encoding="utf-8")
     with pytest.raises(FilmInputError, match=r"position\.film_thickness: a least gap of -.*walls apart: more film"):
         solve_case(load_film(path))
+
+
+def test_values_that_the_pump_file_leaves_out_stay_with_the_result(here):
+    text = '[pump]\ndisplacement = "60 cm3/rev"\npistons = 9\n[oil]\ngrade = "ISO VG 46"\n'
+    (here / "scant.toml").write_text(text, encoding="utf-8")
+    (here / "gap.toml").write_text(GAP.replace("ref90", "scant.toml"), encoding="utf-8")
+    found = film_summary(solve_case(load_film(here / "gap.toml")))
+    assert any(one.startswith("pump.piston_diameter") for one in found["assumptions"])

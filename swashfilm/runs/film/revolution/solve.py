@@ -29,8 +29,8 @@ NO_RUBBING = "forces between the parts neglect the friction of the films on them
 class RevolutionStudy:
     """Periodic motion of a gap, the parts with their assumed values, chamber pressure, and computing time (s).
 
-    left_out: neglected forces between the parts, in words; chamber_pressure (n,) Pa at the reported angles; for
-    the block that of the chamber at shaft angle 0.
+    assumed: neglected forces between the parts, and values that the pump file leaves out, in words; chamber_pressure
+    (n,) Pa at the reported angles; for the block that of the chamber at shaft angle 0.
     """
 
     case: GapOverTurn
@@ -38,7 +38,7 @@ class RevolutionStudy:
     revolution: GapRevolution[Any] = field(repr=False)
     chamber_pressure: Array
     solve_seconds: float
-    left_out: tuple[str, ...] = ()
+    assumed: tuple[str, ...] = ()
 
     @property
     def span(self) -> float:
@@ -59,7 +59,8 @@ def solve_revolution(case: RevolutionCase, report: Report = silent) -> Revolutio
     found = _revolved(case, parts, driven, report)
     chamber = driven.piston.chamber_pressure
     at_angles = np.array([float(chamber(angle)) for angle in found.angles])
-    return RevolutionStudy(case, parts, found, at_angles, time.perf_counter() - began, (NO_RUBBING,))
+    assumed = (NO_RUBBING, *map(str, case.assumptions))
+    return RevolutionStudy(case, parts, found, at_angles, time.perf_counter() - began, assumed)
 
 
 def _revolved(case: RevolutionCase, parts: FloatingParts, driven: Drives, report: Report) -> GapRevolution[Any]:
@@ -159,7 +160,7 @@ def revolution_summary(study: RevolutionStudy) -> dict[str, Any]:
         "physics_left_out": [effect.value for effect in physics.left_out],
         "physics_seconds": {leg.value: time for leg, time in study.revolution.spent.items()},
         **_warmth(study.revolution.warmth),
-        "assumptions": [*study.left_out, *map(str, all_taken(study.case.rotor, study.parts, physics))],
+        "assumptions": [*study.assumed, *map(str, all_taken(study.case.rotor, study.parts, physics))],
         "warnings": revolution_warnings(study.case, study.parts, study.revolution, balance, power),
     }
 

@@ -69,7 +69,8 @@ def solve_gap(case: GapCase) -> GapStudy:
     found = gap.report(stage)
     source = PositionSource.REST if case.position is None else PositionSource.GIVEN
     doubts = unresolved_profiles(case.rotor, case.parts, found.solution) if case.gap is Gap.PISTON else ()
-    return GapStudy(found, source, (NO_RUBBING, *(str(one) for one in case.parts.taken)), tuple(doubts))
+    taken = map(str, (*case.parts.taken, *case.assumptions))
+    return GapStudy(found, source, (NO_RUBBING, *taken), tuple(doubts))
 
 
 def case_gap(case: GapCase) -> StandingGap[Any, Any]:
