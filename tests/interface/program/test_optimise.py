@@ -164,7 +164,9 @@ def test_two_processes_try_the_same_designs(run, tmp_path):
 
 
 def test_values_that_a_scaled_pump_assumes_are_told(tmp_path, capsys):
-    (tmp_path / "scant.toml").write_text('[pump]\ndisplacement = "60 cm3/rev"\npistons = 9\n[oil]\ngrade = "ISO VG 46"\n')
+    (tmp_path / "scant.toml").write_text(
+        '[pump]\ndisplacement = "60 cm3/rev"\npistons = 9\n[oil]\ngrade = "ISO VG 46"\n'
+    )
     case = written(tmp_path, CASE.format(pump="scant.toml").replace("generations = 4", "generations = 1"))
     main(["optimise", str(case), "--workers", "1", "-o", str(tmp_path / "run")])
     said = capsys.readouterr().out
