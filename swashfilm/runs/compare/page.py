@@ -94,13 +94,10 @@ def _efficiency_tiles(row: Row, summary: Row) -> Iterator[Tile]:
 
 
 def _loss_tiles(summary: Row) -> Iterator[Tile]:
-    one, other = _mean_loss(summary)
-    yield Tile(f"{(other - one) * 1e-3:+.2g} kW", "B - A, mean loss", f"A {one * 1e-3:.3g} kW, B {other * 1e-3:.3g} kW")
-
-
-def _mean_loss(summary: Row) -> tuple[float, float]:
     rows = [row for row in summary["differences"] if row["words"] in LOSSES.values()]
-    return sum(row["one"] for row in rows), sum(row["other"] for row in rows)
+    one, other = (1e-3 * sum(row[side] for row in rows) for side in ("one", "other"))
+    apart = f"{other - one:+.2g} kW" if any(row["told"] for row in rows) else NOTHING
+    yield Tile(apart, "B - A, mean loss", f"A {one:.3g} kW, B {other:.3g} kW")
 
 
 def _efficiency_words(row: Row, summary: Row) -> Iterator[str]:
