@@ -70,8 +70,8 @@ def add_map_options(command: argparse.ArgumentParser) -> None:
     add_floating_options(command)
     command.add_argument(
         "--check", metavar="N",
-        help="fresh points that measure the error between levels (40; where each solves films 8 beside an axis of two "
-        "levels, else 0)",
+        help="fresh points that measure the error between levels (40; where each solves films up to 8 beside an axis "
+        "of two levels, else 0)",
     )  # fmt: skip
     command.add_argument("--workers", metavar="N", help="processes that solve points side by side (all cores)")
     command.add_argument("--cluster", metavar="ADDRESS", help="Dask scheduler; its workers solve points")

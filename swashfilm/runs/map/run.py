@@ -40,7 +40,7 @@ POINT_COST = {Fidelity.FIXED: 2.0, Fidelity.FLOATING: 100.0}
 CLOSED_COST = {Fidelity.LUMPED: LumpedSolver.cost, Fidelity.TABLE: TableSolver.cost}
 """The same of a point without solved films."""
 FEW_CHECKED = 8
-"""Number of fresh points of a map whose points cost much, where an axis has two levels alone."""
+"""Fresh points of a map whose points cost much, where an axis has two levels: at most, and no more than its own."""
 START = 4.0
 """Seconds to start another process: each one must have more work."""
 ROW = 7
@@ -81,7 +81,7 @@ class MapCase:
             return self.checks
         if self.by_table or self.fidelity in CLOSED_COST:
             return CHECKED
-        return FEW_CHECKED if any(len(axis.values) == 2 for axis in self.plan.axes) else 0
+        return min(FEW_CHECKED, self.plan.size) if any(len(axis.values) == 2 for axis in self.plan.axes) else 0
 
     @property
     def point_seconds(self) -> float:

@@ -394,7 +394,7 @@ def test_an_unknown_error_between_levels_is_told(run, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("levels", "checks", "fresh"), [((1000.0, 2000.0), None, 8), ((1e3, 2e3, 3e3), None, 0), ((1e3, 2e3), 2, 2)]
+    ("levels", "checks", "fresh"), [((1e2, 2e2), None, 2), ((1e2, 2e2, 3e2), None, 0), ((1e2, 2e2), 5, 5)]
 )
 def test_a_map_of_films_with_two_levels_is_checked_at_fresh_points(levels, checks, fresh):
     plan = map_plan(load_pump("ref90"), (MapAxis(MapInput.SPEED, levels),))
