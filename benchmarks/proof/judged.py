@@ -65,14 +65,17 @@ def is_wrong_name(outcome: Outcome) -> bool:
     """Whether a claim is not the truth; a part of the truth alone is not wrong."""
     if not outcome.claims:
         return is_named(outcome) and outcome.truth != UNKNOWN
-    known = {*truth_of(outcome), *outcome.beside}
-    wrong_gap = [
-        one
-        for one in outcome.claims
-        for effect, pair in zip(outcome.effects, outcome.pairs, strict=True)
-        if one.effect == effect and not _at_gap(one, pair) and len(outcome.effects) == 1
-    ]
-    return bool(wrong_gap) or any(not known & {one.effect, *one.equivalent} for one in outcome.claims)
+    return bool(_wrong_claims(outcome))
+
+
+def _wrong_claims(outcome: Outcome) -> list[Claimed]:
+    """Claims of which no id is concealed, or whose id is concealed at other gaps alone."""
+    known, found = {*truth_of(outcome), *outcome.beside}, []
+    for one in outcome.claims:
+        gaps = [pair for effect, pair in zip(outcome.effects, outcome.pairs, strict=True) if effect == one.effect]
+        elsewhere = bool(gaps) and not any(_at_gap(one, pair) for pair in gaps)
+        found += [one] if elsewhere or not known & {one.effect, *one.equivalent} else []
+    return found
 
 
 def is_grave(outcome: Outcome) -> bool:
@@ -84,7 +87,7 @@ def is_sure_and_wrong(outcome: Outcome) -> bool:
     """Wrong at a stated probability of .9 at least, flagged or not: of a claim with its class, of unknown physics."""
     if not is_wrong_name(outcome):
         return False
-    told = [max(one.probability, of_class(outcome, one)) for one in outcome.claims] or [of_unknown(outcome)]
+    told = [max(one.probability, of_class(outcome, one)) for one in _wrong_claims(outcome)] or [of_unknown(outcome)]
     return max(told) >= SURE
 
 
@@ -121,17 +124,21 @@ def rank(outcome: Outcome) -> int | None:
 
 def in_set(outcome: Outcome) -> bool:
     """Whether the truth, at its gap, is among the likeliest explanations that hold 95 % together."""
+    return any(_is_truth(place, outcome) for place in likeliest_set(outcome))
+
+
+def likeliest_set(outcome: Outcome) -> list[Place]:
+    """The likeliest explanations that hold 95 % together, all of them where they hold less."""
     found: dict[Place, float] = {}
     for one in outcome.ranked:
         found[_place(one)] = found.get(_place(one), 0.0) + one.probability
-    held = 0.0
+    listed, held = list[Place](), 0.0
     for place, probability in sorted(found.items(), key=lambda each: -each[1]):
-        if _is_truth(place, outcome):
-            return True
+        listed.append(place)
         held += probability
         if held >= SET:
-            return False
-    return False
+            break
+    return listed
 
 
 def _place(one: Ranked) -> Place:

@@ -72,6 +72,26 @@ def test_part_of_the_truth_is_not_wrong(proof: SimpleNamespace, right: object) -
     assert not proof.judged.is_wrong_name(pair)
 
 
+def test_a_wrong_gap_of_a_pair_is_wrong(proof: SimpleNamespace, right: object) -> None:
+    """At a gap of neither effect; one id at two gaps is right at both."""
+    claimed = proof.outcome.Claimed
+    pair = replace(right, effects=("elastic_opening", "churning"), pairs=("slipper", None))
+    told = (claimed("elastic_opening", "piston", 0.97, ()), claimed("churning", None, 0.97, ()))
+    assert proof.judged.is_grave(replace(pair, claims=told))
+    twice = replace(right, effects=("elastic_opening", "elastic_opening"), pairs=("slipper", "piston"))
+    both = tuple(claimed("elastic_opening", gap, 0.97, ()) for gap in ("piston", "slipper"))
+    assert not proof.judged.is_wrong_name(replace(twice, claims=both))
+
+
+def test_only_a_wrong_claim_is_wrong_and_sure(proof: SimpleNamespace, right: object) -> None:
+    """A doubtful wrong claim beside a certain right one is wrong, and not sure."""
+    doubted = proof.outcome.Claimed("churning", None, 0.3, ())
+    told = replace(right, claims=(*right.claims, doubted))
+    assert proof.judged.is_wrong_name(told)
+    assert not proof.judged.is_sure_and_wrong(told)
+    assert proof.judged.is_sure_and_wrong(replace(told, claims=(*right.claims, replace(doubted, probability=0.9))))
+
+
 def test_the_truth_has_a_place(proof: SimpleNamespace, right: object) -> None:
     """First where it is named; in the 95 % set by its probability; nowhere where it was not weighed."""
     second = replace(right, effects=("film_heating",), pairs=(None,))
