@@ -14,6 +14,7 @@ from __future__ import annotations
 import argparse
 import json
 import sys
+from collections import Counter
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -44,7 +45,7 @@ def _options() -> argparse.Namespace:
     reader.add_argument("--test-seed", type=int, metavar="N", help="make: draws of the test split, to keep secret")
     reader.add_argument("--truths", type=Path, metavar="FILE", help="score: truths that lie elsewhere")
     reader.add_argument("--page", type=Path, metavar="FILE", help="score: also write the table into a page")
-    return reader.parse_args()
+    return reader.parse_intermixed_args()  # answers may stand behind the options
 
 
 def _make(options: argparse.Namespace) -> int:
@@ -59,6 +60,9 @@ def _make(options: argparse.Namespace) -> int:
             "--recordings", str(options.recordings), f"1 to {limit}", str(min(max(options.recordings, 1), limit))
         )
         raise InputFaults("command line", [fault])
+    if options.test_seed in SEEDS.values():
+        told = "a number other than the public ones, whose recordings anybody makes with their truths"
+        raise InputFaults("command line", [Fault("--test-seed", str(options.test_seed), told)])
     if options.folder.exists() and any(options.folder.iterdir()):
         raise InputFaults("command line", [Fault("FOLDER", f"'{options.folder}', not empty", "a new folder")])
     seeds = {} if options.test_seed is None else {Split.TEST: options.test_seed}
@@ -86,10 +90,22 @@ def _score(options: argparse.Namespace) -> int:
     folders = options.answers or sorted(
         path for path in (options.folder / ANSWERS / options.split).glob("*") if path.is_dir()
     )
-    entries = {folder.name: read_answers(folder, names) for folder in folders}
+    _refuse_namesakes(folders)
+    entries = {folder.resolve().name: read_answers(folder, names) for folder in folders}
     scores = [score(name, truths, answers) for name, answers in entries.items()]
     print(write_page(options.page, options.split, truths, entries, scores))
     return 0
+
+
+def _refuse_namesakes(folders: list[Path]) -> None:
+    """Raise InputFaults for folders of one name: an entry has the name of its folder."""
+    from system.inputs.faults import Fault, InputFaults
+
+    counts = Counter(folder.resolve().name for folder in folders)
+    faults = [Fault("ANSWERS", f"'{name}' {count} times", "one folder a name, that of its entry")
+              for name, count in counts.items() if count > 1]  # fmt: skip
+    if faults:
+        raise InputFaults("command line", faults)
 
 
 def _names(options: argparse.Namespace) -> list[str]:

@@ -22,6 +22,8 @@ GAPS = (*(one.value for one in Gap), "piston_slipper_socket", "ball_guide_retain
 KEYS = {"format": int, "recording": str, "verdict": str, "status": str, "names": list, "ranking": list, "cpu_s": float}
 NAME_KEYS = {"id": str, "gap": str, "probability": float, "or": list}
 RANKED_KEYS = {"ids": list, "gaps": list, "probability": float}
+MOST = 1.0 + 1e-6
+"""Sum of the probabilities of a ranking at most: one, and round-off."""
 _WORDS = {int: "a whole number", str: "a text", list: "a list", float: "a number"}
 
 
@@ -37,7 +39,7 @@ class Name:
 
 @dataclass(frozen=True)
 class Ranked:
-    """An explanation in the comparison: ids with their gaps, "" for no gap, and its probability."""
+    """An explanation in the comparison: ids with their gaps, "" for no gap, and its probability; no id: nothing."""
 
     ids: tuple[str, ...]
     gaps: tuple[str, ...]
@@ -123,8 +125,13 @@ def _faults(raw: object, recordings: Sequence[str]) -> Iterator[Fault]:
     yield from _choice("status", raw.get("status", "named"), STATUSES, f"one of {', '.join(STATUSES)}")
     for number, one in enumerate(raw.get("names", ()), start=1):
         yield from _named(f"names.{number}", one)
+    weighed = 0.0
     for number, one in enumerate(raw.get("ranking", ()), start=1):
-        yield from _ranked(f"ranking.{number}", one)
+        wrong = [*_ranked(f"ranking.{number}", one)]
+        yield from wrong
+        weighed += 0.0 if wrong else one["probability"]
+    if weighed > MOST:
+        yield Fault("ranking", f"{weighed:.3g} together", "probabilities that add up to 1 at most")
     if raw.get("names") and raw["verdict"] == Kind.NO_MISMATCH.value:
         yield Fault("names", f"{len(raw['names'])} beside no_mismatch", "no name, or another verdict")
 
@@ -148,6 +155,8 @@ def _ranked(where: str, raw: object) -> Iterator[Fault]:
         return
     for one in raw["ids"]:
         yield from _choice(f"{where}.ids", one, (*IDS, Kind.UNKNOWN_PHYSICS.value), "an id of the list in README.md")
+    for one in raw.get("gaps", ()):
+        yield from _choice(f"{where}.gaps", one, ("", *GAPS), f'one of {", ".join(GAPS)}, or ""')
     if "gaps" in raw and len(raw["gaps"]) != len(raw["ids"]):
         yield Fault(f"{where}.gaps", f"{len(raw['gaps'])} for {len(raw['ids'])} ids", 'one each, "" for none')
     yield from _probability(f"{where}.probability", raw["probability"])

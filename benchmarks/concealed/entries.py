@@ -54,7 +54,7 @@ def our_answer(recording: str, found: Outcome) -> Answer:
     names = tuple(Name(one.effect, one.pair or "", one.probability, one.equivalent)
                   for one in found.claims if one.effect in IDS)  # fmt: skip
     ranking = tuple(Ranked(one.effects, tuple(pair or "" for pair in one.pairs), one.probability)
-                    for one in found.ranked if one.kind != Kind.NO_MISMATCH.value)  # fmt: skip
+                    for one in found.ranked)  # fmt: skip
     status = "suspicion" if found.status == "suspicion" else "named"
     return Answer(recording, found.verdict, status, names, ranking, found.seconds)
 

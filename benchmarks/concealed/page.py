@@ -15,8 +15,8 @@ from .chosen import Split
 from .scoring import NOTHING, Score, judged
 from .truth import Truth
 
-HEAD = ("entry", "answered", "false alarms", "missed", "detected", "right", "wrong name", "wrong and sure",
-        "in the 95 % set", "errors a recording", "processor s")  # fmt: skip
+HEAD = ("entry", "answered", "false alarms", "missed", "detected", "right", "without classes", "wrong name",
+        "wrong and sure", "in the 95 % set", "explanations in it", "errors a recording", "processor s")  # fmt: skip
 TEXT = """# Benchmark of concealed physics
 
 Written by `python benchmarks/concealed.py score FOLDER --split {split} --page docs/concealed.md`; do not edit.
@@ -31,8 +31,11 @@ tell.** [The proof](proof.md) has this diagnosis on some hundreds of recordings 
   others, those of which it does not. Detected: neither of both, of all. These are the DX competition's rates of false
   positives and negatives and its detection accuracy.
 - Right: of recordings with something concealed, all of it named and nothing else; an id that a tool cannot tell from
-  the true one may stand in its class, a fault of a meter beside physics need not be named.
-- Wrong name: of all, something named that is not there; sure: at a probability of .9 or more.
+  the true one may stand in its class, a fault of a meter beside physics need not be named. Without classes: the same by
+  the named ids alone. A tool whose classes hold many ids is right more often, and no more often without them.
+- Wrong name: of all, something named that is not there; sure: at a probability of .9 or more, with its class.
+- In the 95 % set: of recordings with a ranking, the truth (or that nothing is concealed) is among the likeliest
+  explanations that hold 95 % together; beside it the mean number of these.
 - Errors a recording: ids named that are not there, and ids there that are not named (unknown physics too), in the mean:
   the DX competition's classification errors.
 - There is no time of detection or isolation: what is concealed is there from the first reading to the last.
@@ -58,10 +61,10 @@ def score_table(scores: Sequence[Score]) -> str:
     """Return the table of scores as Markdown, a row each entry."""
     rows = []
     for one in scores:
-        shares = (one.answered, one.false_positive, one.false_negative, one.detected, one.right, one.wrong,
-                  one.sure_and_wrong, one.in_set)  # fmt: skip
-        spent = f"{one.cpu_s:.3g}" if np.isfinite(one.cpu_s) else "-"
-        rows.append((one.entry, *(own.text for own in shares), f"{one.errors:.2f}", spent))
+        shares = (one.answered, one.false_positive, one.false_negative, one.detected, one.right, one.right_alone,
+                  one.wrong, one.sure_and_wrong, one.in_set)  # fmt: skip
+        size, spent = (f"{own:.3g}" if np.isfinite(own) else "-" for own in (one.set_size, one.cpu_s))
+        rows.append((one.entry, *(own.text for own in shares), size, f"{one.errors:.2f}", spent))
     return table(HEAD, rows)
 
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from proof.calibration import wilson
-from proof.judged import SURE, in_set, is_right, is_wrong_name
+from proof.judged import in_set, is_right, is_sure_and_wrong, is_wrong_name, likeliest_set
 from proof.outcome import Claimed, Outcome, Ranked as Weighed
 from proof.parts import Plant
 
@@ -37,13 +37,13 @@ class Share:
 
 @dataclass(frozen=True)
 class Score:
-    """Score of one entry over the recordings of a split; a recording without an answer counts as not detected.
+    """Score of one entry over the recordings of a split; one without an answer, or failed, counts as not detected.
 
     false_positive: of nulls, alarms; false_negative: of the others, no alarm; detected: both right, of all; right: of
-    recordings with concealed causes, exactly these named; right_at: the same by plant; wrong: of all, a wrong cause
-    named; sure_and_wrong: at a probability of .9 or more; in_set: of rankings given, the truth among the explanations
-    that hold 95 %. errors: of classification, per recording: ids named wrongly, and concealed ids not named. cpu_s:
-    median.
+    recordings with concealed causes, exactly these named; right_at: the same by plant; right_alone: right by the ids
+    themselves, without their classes; wrong: of all, a wrong cause named; sure_and_wrong: at a probability of .9 or
+    more; in_set: of rankings given, the truth among the explanations that hold 95 %; set_size: mean number of these.
+    errors: of classification, per recording: ids named wrongly, and concealed ids not named. cpu_s: median.
     """
 
     entry: str
@@ -52,10 +52,12 @@ class Score:
     false_negative: Share
     detected: Share
     right: Share
+    right_alone: Share
     right_at: Mapping[str, Share]
     wrong: Share
     sure_and_wrong: Share
     in_set: Share
+    set_size: float
     errors: float
     cpu_s: float
 
@@ -74,32 +76,38 @@ class Judged:
         return self.truth.verdict == NOTHING
 
     @property
+    def answered(self) -> bool:
+        """True where there is an answer and the tool has not failed."""
+        return self.answer is not None and self.answer.status != "failed"
+
+    @property
     def alarm(self) -> bool:
         """True where the answer reports a mismatch."""
-        if self.answer is None or self.answer.status == "failed":
+        if self.answer is None or not self.answered:
             return False
         return self.answer.verdict != NOTHING or self.answer.status == "suspicion"
 
     @property
-    def sure_and_wrong(self) -> bool:
-        """True where a wrong cause is named, at a probability of .9 or more."""
-        return is_wrong_name(self.outcome) and any(one.probability >= SURE for one in self.outcome.claims)
+    def right_alone(self) -> bool:
+        """True where the ids named are the concealed ones, each without its class."""
+        alone = tuple(replace(one, equivalent=()) for one in self.outcome.claims)
+        return is_right(replace(self.outcome, claims=alone))
 
     @property
     def errors(self) -> int:
         """Ids named wrongly, and concealed ids not named; an id of a class represents the class.
 
-        Unknown physics that is not reported as such is not named.
+        Unknown physics that is not reported as such is not named, nor is what a suspicion tells.
         """
-        names = () if self.answer is None or self.answer.status != "named" else self.answer.names
+        named = self.answer if self.answer is not None and self.answer.status == "named" else None
         left, errors = [*self.truth.ids], 0
-        for one in names:
+        for one in () if named is None else named.names:
             own = next((id for id in (one.id, *one.equivalent) if id in left), None)
             if own is not None:
                 left.remove(own)
             elif not {one.id, *one.equivalent} & set(self.truth.beside):
                 errors += 1
-        told = self.answer is not None and self.answer.verdict == UNKNOWN
+        told = named is not None and named.verdict == UNKNOWN
         return errors + len(left) + (self.truth.verdict == UNKNOWN and not told)
 
 
@@ -111,18 +119,20 @@ def score(entry: str, truths: Sequence[Truth], answers: Mapping[str, Answer]) ->
     times = [one.cpu_s for one in answers.values() if np.isfinite(one.cpu_s)]
     return Score(
         entry=entry,
-        answered=_share(all_of, lambda one: one.answer is not None and one.answer.status != "failed"),
+        answered=_share(all_of, lambda one: one.answered),
         false_positive=_share(nulls, lambda one: one.alarm),
         false_negative=_share(hidden, lambda one: not one.alarm),
-        detected=_share(all_of, lambda one: one.answer is not None and one.alarm is not one.null),
+        detected=_share(all_of, lambda one: one.answered and one.alarm is not one.null),
         right=_share(hidden, lambda one: is_right(one.outcome)),
+        right_alone=_share(hidden, lambda one: one.right_alone),
         right_at={
             plant.value: _share([one for one in hidden if one.truth.plant == plant.value],
                                 lambda one: is_right(one.outcome)) for plant in Plant
         },
         wrong=_share(all_of, lambda one: is_wrong_name(one.outcome)),
-        sure_and_wrong=_share(all_of, lambda one: one.sure_and_wrong),
+        sure_and_wrong=_share(all_of, lambda one: is_sure_and_wrong(one.outcome)),
         in_set=_share(ranked, lambda one: in_set(one.outcome)),
+        set_size=float(np.mean([len(likeliest_set(one.outcome)) for one in ranked])) if ranked else float("nan"),
         errors=float(np.mean([one.errors for one in all_of])) if all_of else 0.0,
         cpu_s=float(np.median(times)) if times else float("nan"),
     )  # fmt: skip

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import json
+import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -60,9 +61,9 @@ def test_a_perfect_answer(bench, truths, tmp_path):
     counts = {name: (own.hits, own.of) for name, own in vars(found).items() if isinstance(own, bench.scoring.Share)}
     assert counts == {
         "answered": (4, 4), "false_positive": (0, 1), "false_negative": (0, 3), "detected": (4, 4), "right": (3, 3),
-        "wrong": (0, 4), "sure_and_wrong": (0, 4), "in_set": (2, 2),
+        "right_alone": (3, 3), "wrong": (0, 4), "sure_and_wrong": (0, 4), "in_set": (2, 2),
     }  # fmt: skip
-    assert (found.errors, found.cpu_s) == (0.0, 2.0)
+    assert (found.errors, found.cpu_s, found.set_size) == (0.0, 2.0, 1.0)
     assert (found.right_at["rough"].hits, found.right_at["rough"].of) == (1, 1)
 
 
@@ -101,6 +102,46 @@ def test_a_class_stands_for_its_member(bench, truths):
     assert (found.right.hits, found.errors) == (1, 0.0)
 
 
+def test_a_class_of_every_id_is_told(bench, truths):
+    """It is right of one cause without knowledge, by its class alone; nothing is right without it."""
+    ids = bench.answer.IDS
+    names = (bench.answer.Name(ids[0], "", 0.97, ids[1:]),)
+    told = {one.recording: bench.answer.Answer(one.recording, "missing_physics", "named", names, (), 1.0)
+            for one in truths[1:2]}  # fmt: skip
+    found = bench.scoring.score("all", truths[1:2], told)
+    assert (found.right.hits, found.right_alone.hits) == (1, 0)
+
+
+def test_nothing_is_an_explanation_of_the_set(bench, truths):
+    """Of a null the true one; a hidden cause behind it is not in the set, and a short list is as long as it is."""
+    ranked, answer = bench.answer.Ranked, bench.answer.Answer
+    nothing, churning = ranked((), (), 0.97), ranked(("churning",), ("",), 0.03)
+    told = {name: answer(name, "no_mismatch", "named", (), (nothing, churning), 1.0) for name in ("a", "b")}
+    found = bench.scoring.score("n", truths[:2], told)
+    assert (found.in_set.hits, found.in_set.of, found.set_size) == (1, 2, 1.0)
+    few = answer("b", "no_mismatch", "named", (), tuple(ranked((id,), ("",), 0.01) for id in bench.answer.IDS), 1.0)
+    assert bench.scoring.score("f", truths[1:2], {"b": few}).set_size == len(bench.answer.IDS)
+
+
+def test_a_failure_detects_nothing(bench, truths):
+    failed = bench.answer.Answer("a", "no_mismatch", "failed", (), (), 1.0)
+    found = bench.scoring.score("f", truths[:1], {"a": failed})
+    assert (found.answered.hits, found.detected.hits, found.false_positive.hits) == (0, 0, 0)
+
+
+def test_a_suspicion_of_unknown_physics_does_not_name_it(bench, truths):
+    told = bench.answer.Answer("c", "unknown_physics", "suspicion", (), (), 1.0)
+    found = bench.scoring.score("s", truths[2:3], {"c": told})
+    assert (found.right.hits, found.errors) == (0, 1.0)
+
+
+def test_unknown_physics_told_for_a_known_cause_is_wrong_and_sure(bench, truths):
+    weighed = (bench.answer.Ranked(("unknown_physics",), ("",), 0.95),)
+    told = bench.answer.Answer("b", "unknown_physics", "named", (), weighed, 1.0)
+    found = bench.scoring.score("u", truths[1:2], {"b": told})
+    assert (found.wrong.hits, found.sure_and_wrong.hits) == (1, 1)
+
+
 FAULTS = [
     ({"format": 2}, "b.json: format", "1"),
     ({"recording": "bb"}, "b.json: recording", "b"),
@@ -115,6 +156,9 @@ FAULTS = [
     ({"names": [{"id": "churning", "probability": 97}]}, "b.json: names.1.probability", ""),
     ({"names": [{"id": "churning", "or": ["drop"]}]}, "b.json: names.1.or", ""),
     ({"ranking": [{"ids": ["churning"], "gaps": [], "probability": 1}]}, "b.json: ranking.1.gaps", ""),
+    ({"ranking": [{"ids": ["churning"], "gaps": ["slippr"], "probability": 1}]}, "b.json: ranking.1.gaps", "slipper"),
+    ({"ranking": [{"ids": ["churning"], "gaps": [["piston"]], "probability": 1}]}, "b.json: ranking.1.gaps", ""),
+    ({"ranking": [{"ids": [], "probability": 0.6}] * 2}, "b.json: ranking", ""),
     ({"cpu_s": "12"}, "b.json: cpu_s", ""),
     ({"verdict": "no_mismatch"}, "b.json: names", ""),
 ]
@@ -185,6 +229,27 @@ def test_a_recording_tells_nothing(bench, made):
         assert not any(str(72000 + k) in (folder / "pump.toml").read_text() for k in range(300))
 
 
+def said(*words: object) -> str:
+    """What `concealed.py` says as it refuses a command line."""
+    command = [sys.executable, ROOT / "benchmarks" / "concealed.py", *words]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    return done.stderr
+
+
+def test_two_entries_of_one_name_are_refused(made, tmp_path):
+    """Neither of them replaces the other."""
+    folders = [tmp_path / team / "answers" for team in ("a", "b")]
+    for folder in folders:
+        folder.mkdir(parents=True)
+    assert "'answers' 2 times" in said("score", made, "--split", "test", *folders)
+
+
+def test_a_public_seed_is_no_secret_test(tmp_path):
+    assert "--test-seed" in said("make", tmp_path / "new", "--test-seed", "71")
+    assert not (tmp_path / "new").exists()
+
+
 def test_rivals_as_answers(bench):
     """A rival that names nothing has a suspicion; one that names a fault of a meter has that verdict."""
     from concealed.entries import rival_answer
@@ -197,12 +262,15 @@ def test_rivals_as_answers(bench):
 
 def test_our_verdicts_as_answers(bench, truths):
     from concealed.entries import our_answer
-    from proof.outcome import Claimed, Outcome
+    from proof.outcome import Claimed, Outcome, Ranked
 
     blank = Outcome("b", "", "", 0, 0.0, 0.0, {}, "", (), (), {})
     claimed = (Claimed("elastic_opening", "slipper", 0.97, ("film_thickness",)),)
     told = Outcome(**vars(blank) | {"verdict": "missing_physics", "status": "incomplete", "claims": claimed})
     assert bench.scoring.score("ours", truths[1:2], {"b": our_answer("b", told)}).right.hits == 1
+    weighed = (Ranked((), (), "no_mismatch", 0.96), Ranked(("churning",), (None,), "missing_physics", 0.04))
+    quiet = our_answer("a", Outcome(**vars(blank) | {"verdict": "no_mismatch", "status": "named", "ranked": weighed}))
+    assert bench.scoring.score("ours", truths[:1], {"a": quiet}).in_set.hits == 1
     failed = our_answer("b", Outcome(**vars(blank) | {"failed": "no film"}))
     assert failed.status == "failed"
     assert not bench.scoring.judged(truths[1], failed).alarm
