@@ -45,7 +45,7 @@ def main() -> int:
         part, number, folder = options.write
         return _write(cases(Part(part), seed)[int(number)], Path(folder))
     if options.record:
-        return _record(options.results)
+        return _record(options.results, seeds.proof)
     parts = [part for part in Part if options.part in (None, part.value)]
     listed = [case for part in parts for case in cases(part, seed)[: options.cases]]
     folders = [] if options.part not in (None, GIVEN) else given()[: options.cases]
@@ -178,12 +178,13 @@ def _write(case, folder: Path) -> int:
     return 0
 
 
-def _record(results: Path) -> int:
-    """Write the track record from all outcomes that are there; 1 where there is none."""
+def _record(results: Path, seed: int) -> int:
+    """Write the track record from the outcomes of the proof's cases that are there; 1 where there is none."""
+    from proof.cases import cases
     from proof.record import write_record
     from proof.store import outcomes
 
-    known = outcomes(results)
+    known = outcomes(results, (case for part in Part for case in cases(part, seed)))
     if not known:
         print(f"no outcome in {results}")
         return 1

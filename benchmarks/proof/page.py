@@ -12,14 +12,14 @@ from diagnosis.thresholds import load_thresholds
 from .again import sentence as tried_again
 from .calibration import draw
 from .cases import Part, cases
-from .expected import GIVEN, given
+from .expected import given
 from .gates import CLEAR, gates
 from .judged import is_grave, is_named, is_right, is_wrong_name
 from .markdown import table
 from .outcome import Outcome
 from .parts import Plant, plant_of
 from .real import TITLES
-from .store import load, name_of, name_of_folder, program
+from .store import load, name_of_folder, outcomes as kept_outcomes, program
 from .told import Told, load_told
 from .wide.page import section as on_three_plants
 
@@ -88,9 +88,7 @@ def write_page(results: Path, page: Path, seed: int) -> None:
     """Write the page and its picture from the outcomes in a folder."""
     page.parent.mkdir(parents=True, exist_ok=True)
     planned = [case for part in Part for case in cases(part, seed)]
-    names = [*(name_of(case) for case in planned), *(name_of_folder(folder) for folder in given())]
-    kept = [one for one in (load(results, name) for name in names) if one is not None]
-    outcomes = [one for one in kept if one.part != GIVEN]
+    outcomes = kept_outcomes(results, planned)
     first = [one for one in outcomes if plant_of(one.part) is Plant.FIRST]
     pieces = [HEAD, _made_of(planned, outcomes, seed, tried_again(results))]
     if first:
@@ -102,7 +100,8 @@ def write_page(results: Path, page: Path, seed: int) -> None:
         pieces.append(_grades(outcomes))
     if first:
         pieces.append(_rivals(first))
-    bench = [one for one in kept if one.part == GIVEN]
+    known = (load(results, name_of_folder(folder)) for folder in given())
+    bench = [one for one in known if one is not None]
     if bench:
         pieces.append("\n## Recordings with known answers\n\n" + _given(bench))
     pieces += [_section(each) for each in map(partial(load_told, results), TITLES) if each is not None]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import json
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
@@ -80,10 +80,9 @@ def load(folder: Path, name: str) -> Outcome | None:
     return from_plain(json.loads(path.read_text("utf-8"))) if path.exists() else None
 
 
-def outcomes(folder: Path) -> list[Outcome]:
-    """All outcomes of a folder, in the order of their names; the page's other sections there are no outcomes."""
-    read = (json.loads(path.read_text("utf-8")) for path in sorted(folder.glob("*.json")))
-    return [from_plain(data) for data in read if "truth" in data]
+def outcomes(folder: Path, listed: Iterable[Case | WideCase]) -> list[Outcome]:
+    """The outcomes of these cases that a folder has; those of other draws and of earlier plants stay apart."""
+    return [found for case in listed if (found := load(folder, name_of(case))) is not None]
 
 
 def keep(folder: Path, name: str, outcome: Outcome) -> None:
