@@ -40,12 +40,16 @@ def calibration_error(outcomes: Sequence[Outcome]) -> float:
 
 @dataclass(frozen=True)
 class Bin:
-    """Cases of similar probability: its mean, the share in which it is true, weight in the mix, number."""
+    """Cases of similar probability: its mean, the share in which it is true, weight in the mix, number.
+
+    alike: number of cases of equal weight that tell as much (Kish 1965).
+    """
 
     told: float
     true: float
     weight: float
     cases: int
+    alike: float
 
 
 def bins(outcomes: Sequence[Outcome]) -> list[Bin]:
@@ -57,11 +61,12 @@ def bins(outcomes: Sequence[Outcome]) -> list[Bin]:
         own = place == each
         share = weight[own].sum()
         mean_told, mean_true = (float(weight[own] @ values[own] / share) for values in (told, true))
-        found.append(Bin(mean_told, mean_true, float(share), int(own.sum())))
+        alike = float(share**2 / (weight[own] ** 2).sum())
+        found.append(Bin(mean_told, mean_true, float(share), int(own.sum()), alike))
     return found
 
 
-def wilson(hits: float, cases: int, z: float = 1.96) -> tuple[float, float]:
+def wilson(hits: float, cases: float, z: float = 1.96) -> tuple[float, float]:
     """Wilson's (1927) interval of a share."""
     if cases == 0:
         return 0.0, 1.0
@@ -71,14 +76,17 @@ def wilson(hits: float, cases: int, z: float = 1.96) -> tuple[float, float]:
 
 
 def draw(outcomes: Sequence[Outcome], path: Path) -> None:
-    """The reliability diagram as a PNG: truth over probability, area by weight, Wilson's 95 % intervals."""
+    """The reliability diagram as a PNG: truth over probability, area by weight, Wilson's 95 % intervals.
+
+    The intervals are those of as many cases of equal weight as tell as much: rare kinds weigh more in the mix.
+    """
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(5.2, 5.0), layout="constrained")
     axes = figure.subplots()
     axes.plot([0, 1], [0, 1], color="0.6", linewidth=1)
     for one in bins(outcomes):
-        axes.vlines(one.told, *wilson(one.true * one.cases, one.cases), color="#9aa4ab")
+        axes.vlines(one.told, *wilson(one.true * one.alike, one.alike), color="#9aa4ab")
         axes.scatter(one.told, one.true, s=20 + 400 * one.weight, color="#1f5a8a", alpha=0.8, zorder=3)
         axes.annotate(f" {one.cases}", (one.told, one.true), (6, -10), textcoords="offset points", fontsize=8)
     axes.set(xlim=(-0.05, 1.05), ylim=(-0.05, 1.05), xlabel="probability of the likeliest explanation",

@@ -130,6 +130,17 @@ def test_calibration_of_one_case(proof: SimpleNamespace, right: object) -> None:
     assert proof.calibration.calibration_error([right]) == pytest.approx(0.03)
 
 
+def test_cases_of_unlike_weight_tell_less(proof: SimpleNamespace, right: object) -> None:
+    """Nine of a kind and one of another: less than ten (Kish 1965); of one kind all."""
+    rare = replace(right, truth="sensor_fault")
+    (found,) = proof.calibration.bins([*[right] * 9, rare])
+    shares = proof.calibration.MIX["missing_physics"], proof.calibration.MIX["sensor_fault"]
+    assert found.cases == 10
+    assert found.alike == pytest.approx(sum(shares) ** 2 / (shares[0] ** 2 / 9 + shares[1] ** 2))
+    (alone,) = proof.calibration.bins([right] * 9)
+    assert alone.alike == pytest.approx(9.0)
+
+
 @pytest.mark.parametrize(("effects", "true"), [(("elastic_opening",), True), (("churning",), False)])
 def test_a_claim_is_scored_as_it_is_told(
     proof: SimpleNamespace, right: object, effects: tuple[str, ...], true: bool
