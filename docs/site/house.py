@@ -96,9 +96,7 @@ def picture() -> str:
         raise ValueError(f"no such rooms: {', '.join(badges)}")
     head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {right + 12} {top + 20}" font-family="sans-serif">'
     ground = f'<rect width="{right + 12}" height="{top + 20}" fill="white"/>'
-    foot = _text(
-        LEFT, top + 8, "A room imports from rooms to its left and from packages below, never the other way.", 12
-    )
+    foot = _text(LEFT, top + 8, RULE, 12)
     lines = [head, ground, _legend(), *(part.replace("RIGHT", str(right - 4)) for part in parts), foot, "</svg>"]
     return "\n".join(lines) + "\n"
 
