@@ -107,7 +107,7 @@ def operator(space: FilmSpace, case: Case, eccentricity: float) -> tuple[Array, 
         fixed |= where > 1.2 * np.pi
     data, pattern = np.empty_like(entries), space.pattern
     kernels.hold(pattern.indptr, pattern.indices, entries, 1.0 / entries.max(), fixed, np.zeros(space.size), data)
-    return data, np.where(fixed, 0.0, case.eccentricity * np.sin(where) / space.size)
+    return data, np.where(fixed, 0.0, eccentricity * np.sin(where) / space.size)
 
 
 def row(case: Case, cells: int, triad: float) -> tuple[str, ...]:
