@@ -16,7 +16,7 @@ from diagnosis.study.acceptance import checked_recording
 from diagnosis.study.model import Study
 from diagnosis.study.prepare import prepare
 from diagnosis.thresholds import Thresholds, load_thresholds
-from diagnosis.verdict.diagnosis import Diagnosis, Estimate
+from diagnosis.verdict.diagnosis import Diagnosis
 from gaps.films.physics import Effect
 from system.description.tolerances import tolerances
 from system.estimation.posterior import values_at
@@ -152,7 +152,3 @@ def _outcome(case: Case, found: Diagnosis, reached: float, seconds: float) -> Ou
         {name.value: (fit.before[name] / fit.noise[name], fit.after[name] / fit.noise[name]) for name in fit.before},
         seconds,
     )  # fmt: skip
-
-
-def _size(size: Estimate) -> str:
-    return f"{size.value:.2g} +- {size.sigma:.1g}"
