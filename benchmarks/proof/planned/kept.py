@@ -13,19 +13,23 @@ from .trial import ByGrid, Pair, Told, Trial, by_grid, tried
 
 
 def kept_grid(results: Path, one: Concealed, number: int) -> ByGrid:
-    """The grid's diagnosis of a case."""
+    """The grid's diagnosis of a case; one of another cause by the same number is made anew."""
     path = results / f"grid-{number:03d}.json"
-    if not path.exists():
+    if not path.exists() or _grid(path).name != one.label:
         _keep(path, by_grid(one, number))
     return _grid(path)
 
 
 def kept_trial(results: Path, one: Concealed, number: int, grid: ByGrid) -> Trial:
-    """The planned campaigns of a case."""
+    """The planned campaigns of a case; those of another cause or of other open pairs are made anew."""
     path = results / f"planned-{number:03d}.json"
-    if not path.exists():
+    if not path.exists() or not _fits(_trial(path), one, grid):
         _keep(path, tried(one, number, grid))
     return _trial(path)
+
+
+def _fits(found: Trial, one: Concealed, grid: ByGrid) -> bool:
+    return found.name == one.label and [pair.rival for pair in found.pairs] == grid.open
 
 
 def all_grids(results: Path) -> Iterator[ByGrid]:

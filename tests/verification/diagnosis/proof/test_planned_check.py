@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 from types import SimpleNamespace
@@ -40,6 +41,21 @@ def test_what_is_kept_comes_back(check: SimpleNamespace, tmp_path: Path) -> None
     assert list(check.kept.all_trials(tmp_path)) == [trial]
     assert trial.settled == (1, 2)
     assert grid.open == ["torque_offset"]
+
+
+def test_what_is_kept_of_another_cause_is_made_anew(
+    check: SimpleNamespace, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The list of causes has changed: the number is another cause's now; the same for the pairs of a changed grid."""
+    grid, trial = _kept(check, tmp_path)
+    seal, other = SimpleNamespace(label="seal"), SimpleNamespace(label="churning")
+    settled = replace(trial, pairs=trial.pairs[:1])
+    monkeypatch.setattr(check.kept, "by_grid", lambda one, number: replace(grid, name=one.label))
+    monkeypatch.setattr(check.kept, "tried", lambda one, number, found: replace(settled, name=one.label))
+    assert check.kept.kept_grid(tmp_path, seal, 0) == grid
+    assert check.kept.kept_grid(tmp_path, other, 0).name == "churning"
+    assert check.kept.kept_trial(tmp_path, seal, 0, grid) == settled
+    assert check.kept.kept_trial(tmp_path, other, 0, grid).name == "churning"
 
 
 def test_the_page_counts_what_is_settled(check: SimpleNamespace, tmp_path: Path) -> None:
