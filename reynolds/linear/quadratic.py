@@ -1,7 +1,8 @@
 """Linear solver of a quadratic film on a grid, at a cost in proportion to the unknowns.
 
 Conjugate gradients; the preconditioner is a multigrid cycle of the linear film on the same nodes
-(`reynolds.equation.companion`): some 15 to 20 steps to 1e-11 on any mesh.
+(`reynolds.equation.companion`): some 15 to 20 steps to 1e-11 on any mesh, where a film jumps along sides of cells
+alone. A film that trebles inside cells takes 45 steps; one that grows twentyfold there stalls.
 """
 
 import numpy as np
@@ -41,9 +42,10 @@ class QuadraticFilm:
         size, answer = norm(load), np.zeros(len(load))
         if size == 0.0:
             return answer, IterationRecord(0, 0.0)
-        given = self._matrix
-        steps, left = kernels.conjugate_gradients(
-            given.indptr, given.indices, given.data, self._cycle.levels, self._slots, load.copy(), answer, self._work,
-            tolerance * size, MAX_STEPS,
-        )  # fmt: skip
-        return answer, IterationRecord(steps, left / size)
+        parts, image = (self._matrix.indptr, self._matrix.indices, self._matrix.data), self._work[1]
+        steps = kernels.conjugate_gradients(
+            *parts, self._cycle.levels, self._slots, load.copy(), answer, self._work, tolerance * size, MAX_STEPS
+        )
+        # That of the recurrence falls on where round-off holds the answer's.
+        kernels.apply(*parts, answer, image)
+        return answer, IterationRecord(steps, norm(load - image) / size)

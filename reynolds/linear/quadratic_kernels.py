@@ -30,7 +30,7 @@ def apply(indptr, indices, data, x, out):
 
 @njit(**_FAST)
 def conjugate_gradients(indptr, indices, data, levels, slots, residual, x, work, goal, most):
-    """Add to x the solution of A x = residual to |residual| <= goal; returns steps and the residual's size.
+    """Add to x the solution of A x = residual to |residual| <= goal; returns steps.
 
     Unknown k is at slots[k] of the finest of `levels`, whose cycle preconditions. Hestenes and Stiefel 1952.
     """
@@ -61,4 +61,4 @@ def conjugate_gradients(indptr, indices, data, levels, slots, residual, x, work,
             left += residual[k] * residual[k]
         before = now
         steps += 1
-    return steps, np.sqrt(left)
+    return steps

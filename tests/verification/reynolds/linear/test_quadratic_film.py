@@ -90,6 +90,18 @@ def test_a_deep_pocket():
     assert left(upper, answer, load) < 1e-9
 
 
+def test_the_residual_is_that_of_the_answer():
+    """Not that of the recurrence, which falls on where round-off of a large answer holds its residual."""
+    space = film_space(rectangle((1.0, 1.0), (24, 24), cell=Cell.QUADRILATERAL), degree=2)
+    fixed = np.zeros(space.size, dtype=bool)
+    fixed[space.edge_dofs["left"]] = True
+    x, y = space.points
+    upper, _, solver = made(space, np.where(np.maximum(abs(x - 0.5), abs(y - 0.5)) < 0.25, 1e6, 1.0), fixed)
+    load = np.where(fixed, 0.0, 1.0)
+    answer, record = solver.solve(load, 1e-12)
+    assert record.left == pytest.approx(left(upper, answer, load), rel=0.2)
+
+
 def test_spaces_without_a_companion():
     linear = film_space(rectangle((1.0, 1.0), (4, 4), cell=Cell.QUADRILATERAL))
     triangles = film_space(rectangle((1.0, 1.0), (4, 4)), degree=2)
