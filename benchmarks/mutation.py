@@ -22,7 +22,7 @@ from pathlib import Path
 
 from mutation.nearest import Nearness
 from mutation.page import missed, page_text
-from mutation.sample import sample
+from mutation.sample import names, sample
 from mutation.trial import Copy, Fate, Trial
 
 from reynolds.numerics.files import replaced
@@ -42,11 +42,12 @@ def main() -> int:
         _run(options)
     except KeyboardInterrupt:
         print("interrupted; what was finished is kept")
-    kept = _kept()
-    options.page.write_text(page_text(kept, NEAR), encoding="utf-8")
-    for one in missed(kept):
+    kept, there = _kept(), names(ROOT)
+    counted = [one for one in kept if one.name in there]
+    options.page.write_text(page_text(counted, NEAR, len(kept) - len(counted)), encoding="utf-8")
+    for one in missed(counted):
         print(f"survived: {one.name} {one.file} {one.function}\n    {one.before}\n    {one.after}")
-    return int(bool(missed(kept)))
+    return int(bool(missed(counted)))
 
 
 def _options() -> argparse.Namespace:
@@ -61,6 +62,8 @@ def _options() -> argparse.Namespace:
 
 
 def _run(options: argparse.Namespace) -> None:
+    if options.count == 0 and not options.again:
+        return
     known = {one.name: one for one in _kept()}
     own, of = map(int, options.part.split("/"))
     chosen = sample(ROOT, max(options.count, 200) if options.again else options.count)

@@ -27,11 +27,11 @@ Written by `python benchmarks/mutation.py`.
 """
 
 
-def page_text(trials: Sequence[Trial], near: int) -> str:
-    """Counts by package and by kind, then the survivors, with reasons."""
+def page_text(trials: Sequence[Trial], near: int, gone: int) -> str:
+    """Counts by package and by kind, then the survivors, with reasons; gone: outcomes of lines that are no more."""
     same = equivalents()
     decided = [trial for trial in trials if trial.fate is not Fate.UNDECIDED or trial.name in same]
-    parts = [HEAD.format(near=near), _whole(trials, decided, same)]
+    parts = [HEAD.format(near=near), _whole(trials, decided, same), _gone(gone)]
     packages = sorted({trial.file.split("/")[0] for trial in trials})
     rows = [_row(name, [one for one in decided if one.file.startswith(f"{name}/")], same) for name in packages]
     kinds = sorted({trial.kind for trial in trials})
@@ -65,6 +65,11 @@ def _whole(trials: Sequence[Trial], decided: Sequence[Trial], same: Mapping[str,
         f"for each edit that survives. When these edits were tried for the first time, before such a test, the tests "
         f"noticed {_share(fresh)}: about so many of further edits are noticed.\n\n"
     )
+
+
+def _gone(count: int) -> str:
+    """The sentence on outcomes that do not count; empty without any."""
+    return f"{count} more edits are of lines that have changed since; they do not count.\n\n" if count else ""
 
 
 def _share(fates: Sequence[Fate]) -> str:

@@ -38,6 +38,11 @@ def sample(root: Path, count: int) -> list[Edit]:
     return [edit for _, edit in sorted(chosen, key=lambda one: (one[0], one[1].name))][:count]
 
 
+def names(root: Path) -> frozenset[str]:
+    """The names of all edits of the present sources."""
+    return frozenset(edit.name for package in SHARES for edit in _ordered(root, package))
+
+
 def _ordered(root: Path, package: str) -> list[Edit]:
     found = {}
     for path in physics(root, package):
