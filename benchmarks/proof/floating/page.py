@@ -9,6 +9,7 @@ import numpy as np
 from system.points.table.film_physics import FilmModel
 
 from ..markdown import table
+from ..store import program
 from .films import HELD_OUT, LEARNT, OFF, off_text
 from .plant import set_points
 from .trial import VISIBLE, Outcome
@@ -43,7 +44,9 @@ def page(outcomes: Sequence[Outcome], models: dict[str, FilmModel]) -> str:
         ("held out over noise after the finding, median of the cases", f"{np.median(worst):.2f}", f"{HELD:g}"),
         ("wrong, and told with a probability of .9 or more", str(len(sure)), "0"),
     ]
-    return head + table(("", "reached", "goal"), gates) + _of_sets(outcomes, models) + _of_cases(outcomes)
+    stale = sum(one.program != program() for one in outcomes)
+    told = f"\n{stale} of the {len(outcomes)} cases are by another state of the program.\n" if stale else ""
+    return head + table(("", "reached", "goal"), gates) + told + _of_sets(outcomes, models) + _of_cases(outcomes)
 
 
 def _of_sets(outcomes: Sequence[Outcome], models: dict[str, FilmModel]) -> str:

@@ -24,6 +24,7 @@ from system.points.table.film_law import share_name
 from system.points.table.film_physics import NAMED, FilmModel
 from system.pump_file.file import known_pump
 
+from ..store import program
 from ..writing import write_recording
 from .films import OFF, off_text, pump
 from .plant import readings
@@ -57,7 +58,8 @@ class Outcome:
     """The finding of a case.
 
     claims: effect, probability, share with its sigma (none of effects outside the films); score: sigma of the concealed
-    physics; chi2: per reading, before and after; held_out: rms over noise by channel, before and after.
+    physics; chi2: per reading, before and after; held_out: rms over noise by channel, before and after; program: digest
+    of the diagnosing program.
     """
 
     name: str
@@ -69,6 +71,7 @@ class Outcome:
     chi2: tuple[float, float]
     held_out: dict[str, tuple[float, float]]
     seconds: float
+    program: str = ""
 
     @property
     def is_right(self) -> bool:
@@ -150,5 +153,5 @@ def _outcome(case: Case, found: Diagnosis, reached: float, seconds: float) -> Ou
         case.name, case.concealed, found.kind.value, found.status.value, claims, reached,
         (found.before.objective / found.before.residual.size, found.after.objective / found.after.residual.size),
         {name.value: (fit.before[name] / fit.noise[name], fit.after[name] / fit.noise[name]) for name in fit.before},
-        seconds,
+        seconds, program(),
     )  # fmt: skip
