@@ -14,7 +14,7 @@ LENGTHS = (0.3, 0.7, 1.5, 3.0)  # of axes scaled to [-1, 1]
 HEIGHTS = (0.1, 0.3, 1.0, 3.0, 10.0)  # sigma
 ODDS = 3.0  # nats
 PATH = 30  # penalties from the largest that keeps a term down to a thousandth of it
-REFERENCE = {"speed": 220.0, "p": 20.0e6, "mu": 0.0258}
+REFERENCE = {"speed": 220.0, "p": 20.0e6}
 
 
 def gaussian_process(study: Study, residual: Array) -> Rival:
