@@ -24,7 +24,10 @@ def comparison(proof: SimpleNamespace) -> SimpleNamespace:
 
 @pytest.mark.parametrize(("degree", "order"), [(1, 2), (2, 4)])
 def test_the_load_converges_from_mesh_to_mesh(comparison: SimpleNamespace, degree: int, order: int) -> None:
-    """Up to 1e4 unknowns, about as the square of the step with linear elements and its fourth power with quadratic."""
+    """To 1e4 unknowns as the square of the step with linear elements, and its fourth power with quadratic ones.
+
+    The coarsest mesh, of two quadratic cells across, nearly so.
+    """
     exact, errors, cells = math.hypot(*comparison.journal_series.force()), [], comparison.peers.CELLS[degree][:3]
     for count in cells:
         space = film_space(comparison.film.journal_mesh(count), degree=degree)
@@ -34,4 +37,5 @@ def test_the_load_converges_from_mesh_to_mesh(comparison: SimpleNamespace, degre
         load = math.hypot(float(np.sum(carried * np.cos(angle))), float(np.sum(carried * np.sin(angle))))
         errors.append(abs(load / exact - 1.0))
     found = np.log(np.divide(errors[:-1], errors[1:])) / np.log(np.divide(cells[1:], cells[:-1]))
-    assert found == pytest.approx(order, abs=0.35)
+    assert found[1] == pytest.approx(order, abs=0.1)
+    assert found[0] == pytest.approx(order, abs=0.6)
