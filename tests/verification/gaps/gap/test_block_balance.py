@@ -218,7 +218,8 @@ def test_asperities_do_not_touch_over_ports():
     whole, lands = contact_force(rough, gap, modes), contact_force(rough, land, modes)
     bare = BlockFilm(ALL_ROUND, drive(), cells=(4, 16)).outer_at(0.0, q, np.zeros(3))
     touched = film.outer_at(0.0, q, np.zeros(3))
-    assert whole.force + touched.force - bare.force == pytest.approx(lands.force, rel=1e-9)
+    round_off = 1e-12 * np.abs(lands.force).max()
+    assert whole.force + touched.force - bare.force == pytest.approx(lands.force, rel=1e-9, abs=round_off)
     assert whole.slopes + touched.by_position == pytest.approx(lands.slopes, rel=1e-9, abs=1.0)
     step = 1e-10 * np.eye(3)[1]
     ahead, behind = (film.outer_at(0.0, q + d, np.zeros(3)).force for d in (step, -step))
@@ -260,8 +261,8 @@ def test_a_pitch_on_every_unknown_meets_its_like():
     first, then = film.problem_at(0.1 * period), film.problem_at(1.1 * period)
     assert then.held_nodes is not None
     assert np.array_equal(then.held_nodes[behind], first.held_nodes, equal_nan=True)
-    shift = [then.boundary[f"kidney_{k}"] for k in range(1, PISTONS)]
-    assert shift == [pytest.approx(first.boundary[f"kidney_{k}"]) for k in range(2, PISTONS + 1)]
+    after, before = ([one.boundary[f"kidney_{k}"] for k in range(1, PISTONS + 1)] for one in (then, first))
+    assert after[:-1] == before[1:]
 
 
 # Floating
