@@ -4,7 +4,7 @@ from pathlib import Path
 
 import lazy_loader
 
-from reynolds.kernel_sources import discard_stale
+from reynolds.compiled.kernel_sources import discard_stale
 
 discard_stale(Path(__file__).parents[1])  # before any compiled function is loaded
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import reynolds
-from reynolds.kernel_sources import STAMP, discard_stale, kept_in
+from reynolds.compiled.kernel_sources import STAMP, discard_stale, kept_in
 
 ROOT = Path(reynolds.__file__).parents[1]
 KERNEL = """
@@ -80,8 +80,10 @@ def test_the_program_has_discarded_what_was_stale():
 @pytest.mark.slow
 def test_a_compiled_function_has_the_constants_of_today(tree):
     """Numba's own place of kept code is the one that is cleared."""
-    run = "import reynolds.kernel_sources as k; from pathlib import Path; k.discard_stale(Path.cwd(), ['film'])"
-    printing = f"{run}; from film.kernels import value; print(value(8.0))"
+    clearing = "from pathlib import Path; kernel_sources.discard_stale(Path.cwd(), ['film'])"
+    printing = (
+        f"from reynolds.compiled import kernel_sources; {clearing}; from film.kernels import value; print(value(8.0))"
+    )
     places = os.environ | {"PYTHONPATH": os.pathsep.join([str(ROOT), str(tree)])}
 
     def printed() -> str:
