@@ -35,7 +35,7 @@ from system.work.progress import Report
 from system.work.sampled_points import usual_counts
 from system.work.tasks import Executor, PartOutcome, PartStatus
 
-POINT_COST = {Fidelity.FIXED: 2.0, Fidelity.FLOATING: 100.0}
+POINT_COST = {Fidelity.FIXED: 2.0, Fidelity.FLOATING: 60.0}
 """Approximate processor time of a point whose films are solved, s (`swashfilm map ref90 --direct`)."""
 CLOSED_COST = {Fidelity.LUMPED: LumpedSolver.cost, Fidelity.TABLE: TableSolver.cost}
 """The same of a point without solved films."""
