@@ -10,6 +10,7 @@ from proof.judged import is_right
 from proof.markdown import table
 from proof.parts import Plant
 
+from . import VERSION
 from .answer import Answer
 from .chosen import Split
 from .scoring import NOTHING, Score, judged
@@ -22,9 +23,10 @@ TEXT = """# Benchmark of concealed physics
 Written by `python benchmarks/concealed.py score FOLDER --split {split} --page docs/concealed.md`; do not edit.
 
 Recordings of three pump plants, each with something concealed or nothing, are open to any tool:
-[how to enter](../benchmarks/concealed/README.md). This page has the {split} split with {count} recordings, {nulls}
-of them with nothing concealed. **So few recordings order no tools: the intervals (Wilson, 95 %) say what they can
-tell.** [The proof](proof.md) has this diagnosis on some hundreds of recordings of the same plants, with other draws.
+[how to enter](../benchmarks/concealed/README.md). This page has the {split} split of version {version} with {count}
+recordings, {nulls} of them with nothing concealed. **So few recordings order no tools: the intervals (Wilson, 95 %) say
+what they can tell.** [The proof](proof.md) has this diagnosis on some hundreds of recordings of the same plants, with
+other draws.
 
 {tables}
 - False alarms: of recordings with nothing concealed, those of which a tool says that something is off. Missed: of the
@@ -109,5 +111,6 @@ def write_page(
     if path is not None:
         told = CASES + case_table(truths, entries) if split == Split.DEVELOPMENT.value else ""
         nulls = sum(one.verdict == NOTHING for one in truths)
-        path.write_text(TEXT.format(split=split, count=len(truths), nulls=nulls, tables=tables) + told, "utf-8")
+        text = TEXT.format(split=split, version=VERSION, count=len(truths), nulls=nulls, tables=tables)
+        path.write_text(text + told, "utf-8")
     return tables

@@ -199,6 +199,23 @@ def test_splits_differ_and_plants_take_turns(bench):
     assert len(bench.chosen.chosen(72, 10_000)) == bench.chosen.most(72)
 
 
+def test_no_two_recordings_share_their_draws(bench):
+    """Two of one pump with the same noise would differ by what is concealed alone; neither in the other split."""
+    seeds = [case.seed for seed in bench.chosen.SEEDS.values() for case in bench.chosen.chosen(seed, 300)]
+    assert len(set(seeds)) == 600
+
+
+@pytest.mark.parametrize("recordings", [12, 84, 300])
+def test_no_campaign_is_one_of_nulls_alone(bench, recordings):
+    """A recording's channels and number of points do not tell that nothing is concealed in it."""
+    for seed in bench.chosen.SEEDS.values():
+        found = bench.chosen.chosen(seed, recordings)
+        nulls = {(one.part.plant, one.campaign) for one in found if one.part.value.endswith("null")}
+        others = {(one.part.plant, one.campaign) for one in found if not one.part.value.endswith("null")}
+        assert nulls
+        assert nulls <= others
+
+
 @pytest.fixture(scope="module")
 def made(bench, tmp_path_factory) -> Path:
     """A benchmark of three recordings, nothing concealed."""
@@ -209,7 +226,7 @@ def made(bench, tmp_path_factory) -> Path:
 
 def test_folders_and_seals(bench, made):
     about = json.loads((made / "manifest.json").read_text())
-    assert (about["benchmark"], about["licence"], about["splits"]["test"]["seed"]) == (1, "CC-BY-4.0", 72)
+    assert (about["benchmark"], about["licence"], about["splits"]["test"]["seed"]) == (2, "CC-BY-4.0", 72)
     for split, path in (("development", made / "development" / "truths.json"),
                         ("test", made / "sealed" / "test-truths.json")):  # fmt: skip
         assert bench.truth.seal(path) == about["splits"][split]["truths_sha256"]
@@ -226,7 +243,17 @@ def test_a_recording_tells_nothing(bench, made):
         assert f'title = "{folder.name}"' in text
         assert "nothing" not in text
         assert "seed" not in text
-        assert not any(str(72000 + k) in (folder / "pump.toml").read_text() for k in range(300))
+        assert not any(str(one.seed) in (folder / "pump.toml").read_text() for one in bench.chosen.chosen(72, 3))
+
+
+def test_the_page_tells_split_and_version(bench, truths, tmp_path):
+    told = {truths[1].recording: perfect(bench, truths[1])}
+    scores = [bench.scoring.score("e", truths, told)]
+    bench.page.write_page(tmp_path / "p.md", "development", truths, {"e": told}, scores)
+    text = (tmp_path / "p.md").read_text()
+    assert "development split of version 2 with 4\nrecordings, 1 of them with nothing concealed" in text
+    assert "**elastic_opening (slipper)**" in text
+    assert text.count("\n| e |") == 2
 
 
 def said(*words: object) -> str:
