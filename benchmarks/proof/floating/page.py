@@ -12,7 +12,7 @@ from ..markdown import table
 from ..store import program
 from .films import HELD_OUT, LEARNT, OFF, off_text
 from .plant import set_points
-from .trial import VISIBLE, Outcome
+from .trial import SEEDS, VISIBLE, Outcome
 
 GATE, HELD = 0.95, 1.1
 """Goals, set before the run: right of the cases that show, and rms of points held out over the noise."""
@@ -24,9 +24,9 @@ Results of `swashfilm diagnose --fidelity floating` where the truth is known, wr
 {points} points is solved directly. The simulation leaves out one or two parts of the film physics. It and the
 hypotheses are response tables of {learnt} points learnt and {held_out} held out, none of them a point of the plant.
 Full displacement, oil at the pump's own temperature, 1000 to 2200 r/min, 5 to 25 MPa. Calibrations and noise of the
-sensors are drawn for each case, class A of ISO 4409, as in the [proof](proof.md). Plant and simulation share films and
-meshes: this proves that the physics is told apart, not that the films are right, for which see the
-[validation](validation.md).
+sensors are drawn {draws} times, class A of ISO 4409, as in the [proof](proof.md); each of these recordings is diagnosed
+by every simulation. Plant and simulation share films and meshes: this proves that the physics is told apart, not that
+the films are right, for which see the [validation](validation.md).
 
 """
 
@@ -37,7 +37,7 @@ def page(outcomes: Sequence[Outcome], models: dict[str, FilmModel]) -> str:
     nulls = [one for one in outcomes if not one.concealed]
     right, worst = [one for one in shown if one.is_right], [one.worst for one in outcomes if one.concealed]
     sure = [one for one in outcomes if one.wrong_and_sure]
-    head = HEAD.format(points=len(set_points()), learnt=LEARNT, held_out=HELD_OUT)
+    head = HEAD.format(points=len(set_points()), learnt=LEARNT, held_out=HELD_OUT, draws=len(SEEDS))
     gates = [
         ("named, of the cases that show by 8 sigma", f"{len(right)} of {len(shown)}", f"{GATE:.0%}"),
         ("nothing named where nothing is left out", f"{sum(one.is_right for one in nulls)} of {len(nulls)}", "all"),
