@@ -8,7 +8,6 @@ effects of [physics] (`film_effects`); its other effects act by their laws, at t
 """
 
 from collections.abc import Sequence
-from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
 from time import perf_counter
 
@@ -36,19 +35,10 @@ from system.points.floating_exchange import (
     with_floating_gaps,
 )
 from system.points.floating_gaps import FloatingOptions, usual_options
-from system.points.floating_kinds import (
-    Group,
-    RoundDrives,
-    by_chamber,
-    chamber_problems,
-    drives_of,
-    gap_revolutions,
-    group_of,
-    started,
-)
-from system.points.floating_progress import GAP_SHARES, SHARES_BESIDE, WholeRun
+from system.points.floating_kinds import Group, RoundDrives, by_chamber, chamber_problems, drives_of, group_of
+from system.points.floating_progress import WholeRun, shares_of_gaps
 from system.points.floating_solved import Round, Solved
-from system.points.gap_process import GapsBeside, gaps_beside
+from system.points.gap_process import GapsBeside, gap_revolutions, gaps_apart, gaps_beside
 from system.points.lumped import point_and_effects
 from system.pump.assembly import PumpPoint, met_point, put_together
 from system.pump.chamber.port_coupling import PortedCycle, ported_cycle
@@ -135,8 +125,9 @@ def floating_point(
     if near is not None:
         gaps = tuple(_begun(kind.gaps) for kind in near.kinds)
         asked = _driven_as(asked, near)
-    whole = WholeRun(report, ROUND_LIMIT, SHARES_BESIDE if side_by_side else GAP_SHARES)
-    with _beside(group, gaps) if side_by_side else nullcontext() as beside:
+    apart = gaps_apart(options.physics) if side_by_side else ()
+    whole = WholeRun(report, ROUND_LIMIT, shares_of_gaps({gap for one in apart for gap in one}))
+    with gaps_beside(group, apart, gaps) as beside:
         while not rounds or not (rounds[-1].settled and _agree(rounds[-1])):
             if len(rounds) == ROUND_LIMIT:
                 raise _not_settled(rounds[-1])
@@ -159,14 +150,6 @@ def _beginning(pump: PumpDescription, point: OperatingPoint, options: FloatingOp
     pressures = tuple(one.pressure for one in plain.chambers)
     at = rotor(described, at_the_ports(plain.point, group.by_chamber))
     return group, RoundDrives(at, angle, pressures, still, (None,) * len(group.parts), options)
-
-
-def _beside(group: Group, gaps: tuple[FloatingGaps, ...] | None) -> AbstractContextManager[GapsBeside]:
-    """Processes for pistons and slippers, which continue from given gaps."""
-    if gaps is None:
-        nothing = [None] * len(group.parts)
-        return gaps_beside(group.parts, nothing, nothing)
-    return gaps_beside(group.parts, [own.piston for own in gaps], [own.slipper for own in gaps])
 
 
 def _begun(gaps: FloatingGaps) -> FloatingGaps:
@@ -211,14 +194,14 @@ def _round(
     group: Group,
     point: OperatingPoint,
     before: tuple[FloatingGaps, ...] | None,
-    beside: GapsBeside | None,
+    beside: Sequence[GapsBeside],
     report: Report,
     solved: Solved,
 ) -> _Found:
     """The gaps at the pressure and friction of the round before, then the chambers with these gaps."""
     began, pump, pistons = perf_counter(), asked.rotor.pump, asked.rotor.pump.pump.pistons
-    if beside is not None:
-        started(beside, asked, group)
+    for process in beside:
+        process.start(asked)
     driven = drives_of(asked, group)
     gaps = gap_revolutions(asked, group, driven, before, beside, report, solved)
     problems = chamber_problems(asked, group, point, piston_motion(pump, point), gaps)

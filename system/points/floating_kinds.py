@@ -7,12 +7,14 @@ over a turn.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from gaps.films.physics import Physics
+from gaps.revolution.march import GapRevolution
 from reynolds.numerics.arrays import Array
 from system.description.gap import Gap
 from system.description.pump import PumpDescription
@@ -26,8 +28,7 @@ from system.points.effects import affected_problem
 from system.points.film_effects import floating_effects
 from system.points.floating_exchange import FloatingGaps, growth, leak_table
 from system.points.floating_gaps import FloatingOptions, block_revolution, piston_revolution, slipper_revolution
-from system.points.floating_solved import GapsOfKind, Solved
-from system.points.gap_process import Driven, GapsBeside
+from system.points.floating_solved import GapsOfKind
 from system.pump.chamber.problem import ChamberProblem
 from system.pump.chamber_kinds import Kinds, kinds
 from system.pump.lumped import PistonMotion
@@ -91,27 +92,13 @@ class RoundDrives:
     options: FloatingOptions
 
 
-def started(beside: GapsBeside, asked: RoundDrives, group: Group) -> None:
-    """Begin a round of the gaps that have a process."""
-    beside.pistons.start(_driven_by(asked, group, group.physics.piston))
-    if beside.slippers is not None:
-        beside.slippers.start(_driven_by(asked, group, group.physics.slipper))
-
-
-def _driven_by(asked: RoundDrives, group: Group, physics: Physics) -> tuple[Driven, ...]:
-    """Drives of piston and slipper of each kind."""
-    pressure, options = np.array(asked.pressure), replace(asked.options, physics=physics)
-    return tuple(
-        Driven(rotor, asked.shaft_angle, pressure[list(group.kinds.chambers(kind))].mean(axis=0), rubbing, options)
-        for kind, (rotor, rubbing) in enumerate(zip(group.rotors(asked), asked.rubbing, strict=True))
-    )
-
-
 def drives_of(asked: RoundDrives, group: Group) -> tuple[Drives, ...]:
     """The drives of each kind's gaps; the block's is one for all."""
+    pressure = np.array(asked.pressure)
+    each = zip(group.rotors(asked), group.parts, asked.rubbing, strict=True)
     found = [
-        drives(one.rotor, parts, one.shaft_angle, one.pressure, one.rubbing)
-        for one, parts in zip(_driven_by(asked, group, group.physics.piston), group.parts, strict=True)
+        drives(at, parts, asked.shaft_angle, pressure[list(group.kinds.chambers(kind))].mean(axis=0), rubbing)
+        for kind, (at, parts, rubbing) in enumerate(each)
     ]
     if group.kinds.alike:
         return tuple(found)
@@ -120,56 +107,39 @@ def drives_of(asked: RoundDrives, group: Group) -> tuple[Drives, ...]:
     return tuple(replace(one, block=block) for one in found)
 
 
-def gap_revolutions(
+def options_of(gap: Gap, asked: RoundDrives, group: Group) -> FloatingOptions:
+    """The round's options with the physics of a gap's film."""
+    physics = group.physics
+    own = {Gap.PISTON: physics.piston, Gap.SLIPPER: physics.slipper, Gap.VALVE_PLATE: physics.valve_plate}
+    return replace(asked.options, physics=own[gap])
+
+
+def revolutions(
+    gap: Gap,
     asked: RoundDrives,
     group: Group,
     driven: Sequence[Drives],
-    before: Sequence[FloatingGaps] | None,
-    beside: GapsBeside | None,
+    before: Sequence[GapRevolution[Any]],
     report: Report,
-    solved: Solved,
-) -> tuple[FloatingGaps, ...]:
-    """The gaps of each kind over the revolution, continued from those before.
+) -> Iterator[GapRevolution[Any]]:
+    """A gap over the revolution, of each kind of chambers or of the block, each as it is found.
 
-    Pistons and slippers are those of their processes, where they have one, `started` before. Each gap is kept in
-    `solved` as soon as it is found.
+    before: those from which they continue, as many or none. Raises as `piston_revolution` and its like.
     """
-    options = [
-        replace(asked.options, physics=own)
-        for own in (group.physics.piston, group.physics.slipper, group.physics.valve_plate)
-    ]
-    last_of: Sequence[FloatingGaps | None] = [None] * len(driven) if before is None else before
-    kinds = _kinds_driven(asked, group, driven)
-    each = list(zip(kinds, last_of, strict=True))
-    if beside is None:
-        turning = (
-            piston_revolution(of.rotor, of.parts, of.drives.piston, options[0], last.piston if last else None, report)
-            for of, last in each
-        )
-        pistons = solved.keep(Gap.PISTON, kinds, options[0], turning)
-    apart = None if beside is None else beside.slippers
-    if apart is None:
-        sliding = (
-            slipper_revolution(
-                of.rotor, of.parts, of.drives.slipper, options[1], last.slipper if last else None, report
-            )
-            for of, last in each
-        )
-        slippers = solved.keep(Gap.SLIPPER, kinds, options[1], sliding)
-    block_before = None if before is None else before[0].block
-    block = block_revolution(asked.rotor, group.parts[0], driven[0].block, options[2], block_before, report)
-    solved.keep(Gap.VALVE_PLATE, kinds, options[2], [block])
-    if apart is not None:
-        slippers = solved.keep(Gap.SLIPPER, kinds, options[1], apart.fetch(report))
-    if beside is not None:
-        pistons = solved.keep(Gap.PISTON, kinds, options[0], beside.pistons.fetch(report))
-    return tuple(
-        FloatingGaps(piston, slipper, block, of.chambers[0])
-        for piston, slipper, of in zip(pistons, slippers, kinds, strict=True)
-    )
+    options, each = options_of(gap, asked, group), list(zip(group.rotors(asked), group.parts, driven, strict=True))
+    last: Sequence[GapRevolution[Any] | None] = [*before] or [None] * len(each)
+    match gap:
+        case Gap.PISTON:
+            for (at, parts, drive), one in zip(each, last, strict=True):
+                yield piston_revolution(at, parts, drive.piston, options, one, report)
+        case Gap.SLIPPER:
+            for (at, parts, drive), one in zip(each, last, strict=True):
+                yield slipper_revolution(at, parts, drive.slipper, options, one, report)
+        case Gap.VALVE_PLATE:
+            yield block_revolution(asked.rotor, group.parts[0], driven[0].block, options, last[0], report)
 
 
-def _kinds_driven(asked: RoundDrives, group: Group, driven: Sequence[Drives]) -> list[GapsOfKind]:
+def kinds_driven(asked: RoundDrives, group: Group, driven: Sequence[Drives]) -> list[GapsOfKind]:
     """The kinds of chambers with the drives of a round."""
     return [
         GapsOfKind(group.kinds.chambers(kind), *own)

@@ -6,9 +6,10 @@ fell; it is at least the usual one until the changes are within their tolerances
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 
+from system.description.gap import Gap
 from system.work.progress import Report
 
 FIRST, LATER = 100, 70
@@ -16,12 +17,25 @@ FIRST, LATER = 100, 70
 EXPECTED_ROUNDS = 6
 SLOWEST = 0.8
 """Factor by which a round reduces the changes, at most."""
+_NAMES = {Gap.PISTON: "piston", Gap.SLIPPER: "slipper", Gap.VALVE_PLATE: "block"}
 GAP_SHARES = {"slipper": 0.25, "block": 0.3, "piston": 0.45}
 """Share of each gap in the work of a round."""
-SHARES_BESIDE = {"slipper": 0.35, "block": 0.5, "piston": 0.15}
-"""The same where another process solves the piston meanwhile."""
+WAITING = 0.15
+"""Share of a round in which this process waits for those of other gaps."""
 TURNS = 1
 """Number of turns after which a gap counts as nine tenths solved."""
+
+
+def shares_of_gaps(apart: Collection[Gap] = ()) -> Mapping[str, float]:
+    """Share of each gap in the time of a round, by the name of its progress; apart: gaps of other processes."""
+    if not apart:
+        return GAP_SHARES
+    elsewhere = {_NAMES[gap] for gap in apart}
+    found: dict[str, float] = {}
+    for names, time in ((elsewhere, WAITING), (set(GAP_SHARES) - elsewhere, 1.0 - WAITING)):
+        whole = sum(GAP_SHARES[name] for name in names)
+        found |= {name: time * GAP_SHARES[name] / whole for name in names}
+    return found
 
 
 @dataclass

@@ -1,45 +1,29 @@
-"""The revolutions of pistons, or of slippers, in a process of their own, parallel to the block's.
+"""The revolutions of a round's gaps, some of them in processes of their own, parallel to the others.
 
 A process keeps the last revolutions' films, so that only drives and reports are exchanged.
 """
 
 import multiprocessing
 import signal
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, nullcontext
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
-from typing import Any, Literal
+from typing import Any
 
+from gaps.films.physics import Physics
 from gaps.revolution.march import GapRevolution
 from reynolds.errors import NotConverged
-from reynolds.numerics.arrays import Array
 from system.description.gap import Gap
-from system.films.drives import Rubbing, drives
-from system.films.parts import FloatingParts
-from system.films.rotor import Rotor
-from system.points.floating_gaps import FloatingOptions, piston_revolution, slipper_revolution
+from system.films.drives import Drives
+from system.points.floating_exchange import FloatingGaps
+from system.points.floating_kinds import Group, RoundDrives, drives_of, kinds_driven, options_of, revolutions
+from system.points.floating_solved import Solved
 from system.work.processes import cores
 from system.work.progress import Report
 
 Found = GapRevolution[Any]
-OwnGap = Literal[Gap.PISTON, Gap.SLIPPER]
-"""The gaps that each chamber has."""
 REPORTS_A_TURN = 12
-
-
-@dataclass(frozen=True)
-class Driven:
-    """Drives of piston and slipper of a kind of chambers.
-
-    The pump at its point, pressure (N,) Pa over the chamber's angle (N,), friction.
-    """
-
-    rotor: Rotor
-    shaft_angle: Array
-    pressure: Array
-    rubbing: Rubbing
-    options: FloatingOptions
 
 
 @dataclass(frozen=True)
@@ -49,98 +33,118 @@ class _Progress:
     what: str
 
 
-class GapBeside:
-    """A process that solves a gap, once for each kind of chambers: start it, continue, fetch the results."""
+@dataclass(frozen=True)
+class _Solved:
+    gap: Gap
+    found: tuple[Found, ...]
 
-    def __init__(self, gap: OwnGap, connection: Connection) -> None:
-        self._gap, self._connection = gap, connection
 
-    def start(self, driven: tuple[Driven, ...]) -> None:
+class GapsBeside:
+    """A process that solves some of the gaps: start a round, continue, fetch the results."""
+
+    def __init__(self, gaps: tuple[Gap, ...], connection: Connection) -> None:
+        self.gaps, self._connection = gaps, connection
+
+    def start(self, asked: RoundDrives) -> None:
         """Begin a round, from the end of the one before."""
-        self._connection.send(driven)
+        self._connection.send(asked)
 
-    def fetch(self, report: Report) -> tuple[Found, ...]:
-        """The revolutions of the round begun, without the start data of the next; reports progress while it waits.
+    def fetch(self, report: Report) -> Iterator[tuple[Gap, tuple[Found, ...]]]:
+        """The gaps of the round begun, one by one: its revolutions without the start data of the next.
 
-        Raises as `piston_revolution` and `slipper_revolution`, NotConverged where the process has died.
+        Reports progress while it waits. Raises as `revolutions`, NotConverged where the process has died.
         """
+        for _ in self.gaps:
+            found = self._next(report)
+            yield found.gap, found.found
+
+    def _next(self, report: Report) -> _Solved:
         while True:
             try:
                 received = self._connection.recv()
             except (EOFError, ConnectionResetError):
+                names = " and ".join(gap.value.replace("_", " ") for gap in self.gaps)
                 raise NotConverged(
-                    f"the process of the {self._gap.value} has died; try one process alone, or in a script of your "
-                    "own call it under `if __name__ == '__main__':`"
+                    f"the process of the {names} has died; try one process alone, or in a script of your own call it "
+                    "under `if __name__ == '__main__':`"
                 ) from None
             if isinstance(received, _Progress):
                 report(received.done, received.total, received.what)
             elif isinstance(received, Exception):
                 raise received
             else:
+                assert isinstance(received, _Solved)
                 return received
 
 
-@dataclass(frozen=True)
-class GapsBeside:
-    """The processes of pistons and of slippers; None where this process solves the slippers."""
+def gaps_apart(physics: Physics) -> tuple[tuple[Gap, ...], ...]:
+    """The gaps of each process beside this one, so that all take about as long; a process has its start to catch up.
 
-    pistons: GapBeside
-    slippers: GapBeside | None
+    Between elastic walls, or warm, slippers and block together take longer than the pistons, else the pistons do.
+    """
+    if physics.elastic_walls or physics.heat:
+        return ((Gap.PISTON,), (Gap.SLIPPER,)) if cores() > 2 else ((Gap.PISTON,),)
+    return ((Gap.SLIPPER,), (Gap.VALVE_PLATE,)) if cores() > 2 else ((Gap.SLIPPER, Gap.VALVE_PLATE),)
 
 
 @contextmanager
 def gaps_beside(
-    parts: tuple[FloatingParts, ...], pistons: Sequence[Found | None], slippers: Sequence[Found | None]
-) -> Iterator[GapsBeside]:
-    """Processes for pistons and slippers, as `gap_beside`; their revolutions from which the first ones continue.
+    group: Group, apart: tuple[tuple[Gap, ...], ...], before: Sequence[FloatingGaps] | None
+) -> Iterator[tuple[GapsBeside, ...]]:
+    """Processes for gaps as long as the context lasts; Ctrl-C is for this process alone, which ends them.
 
-    On two cores the slippers have none: pistons take about as long as slippers and block together.
+    before: the gaps from which the first round continues, if any.
     """
-    apart = cores() > 2
-    with (
-        gap_beside(Gap.PISTON, parts, pistons) as one,
-        gap_beside(Gap.SLIPPER, parts, slippers) if apart else nullcontext() as other,
-    ):
-        yield GapsBeside(one, other)
+    with ExitStack() as stack:
+        yield tuple(stack.enter_context(_process(group, gaps, before)) for gaps in apart)
 
 
 @contextmanager
-def gap_beside(gap: OwnGap, parts: tuple[FloatingParts, ...], before: Sequence[Found | None]) -> Iterator[GapBeside]:
-    """A process for a gap as long as the context lasts; Ctrl-C is for this process alone, which ends it.
-
-    before: the revolution from which the first one of each kind of chambers continues, if any.
-    """
+def _process(group: Group, gaps: tuple[Gap, ...], before: Sequence[FloatingGaps] | None) -> Iterator[GapsBeside]:
     spawning = multiprocessing.get_context("spawn")
     ours, theirs = spawning.Pipe()
-    process = spawning.Process(target=_serve, args=(theirs, gap, parts, before), daemon=True)
+    first = {gap: before_of(gap, before) for gap in gaps}
+    process = spawning.Process(target=_serve, args=(theirs, group, first), daemon=True)
     process.start()
     theirs.close()
     try:
-        yield GapBeside(gap, ours)
+        yield GapsBeside(gaps, ours)
     finally:
         ours.close()
         process.terminate()
         process.join()
 
 
-def _serve(
-    connection: Connection, gap: OwnGap, parts: tuple[FloatingParts, ...], first: Sequence[Found | None]
-) -> None:
-    """Rounds of the gap, one for each request, until the process ends."""
+def before_of(gap: Gap, gaps: Sequence[FloatingGaps] | None) -> tuple[Found, ...]:
+    """The revolutions of a gap, one of each kind of chambers, of the block alone; none without gaps."""
+    match gap:
+        case Gap.PISTON:
+            return tuple(own.piston for own in gaps or ())
+        case Gap.SLIPPER:
+            return tuple(own.slipper for own in gaps or ())
+        case Gap.VALVE_PLATE:
+            return tuple(own.block for own in (gaps or ())[:1])
+
+
+def _serve(connection: Connection, group: Group, first: Mapping[Gap, tuple[Found, ...]]) -> None:
+    """Rounds of the gaps, one for each request, until the process ends."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    before = [*first]
+    before = dict(first)
     while True:
         try:
-            asked: tuple[Driven, ...] = connection.recv()
+            asked: RoundDrives = connection.recv()
         except EOFError:
             return
+        found: list[_Solved | Exception] = []
         try:
-            found = [_solve(gap, *each, _progress_to(connection)) for each in zip(asked, parts, before, strict=True)]
+            driven = drives_of(asked, group)
+            for gap, last in before.items():
+                before[gap] = tuple(revolutions(gap, asked, group, driven, last, _progress_to(connection)))
+                found.append(_Solved(gap, tuple(one.bare for one in before[gap])))
         except Exception as reason:  # sent to the caller, which raises it
-            connection.send(reason)
-        else:
-            before = [*found]
-            connection.send(tuple(one.bare for one in found))
+            found.append(reason)
+        for one in found:  # last, since films wait in the pipe until they are fetched
+            connection.send(one)
 
 
 def _progress_to(connection: Connection) -> Report:
@@ -153,8 +157,30 @@ def _progress_to(connection: Connection) -> Report:
     return report
 
 
-def _solve(gap: OwnGap, asked: Driven, parts: FloatingParts, before: Found | None, report: Report) -> Found:
-    driven = drives(asked.rotor, parts, asked.shaft_angle, asked.pressure, asked.rubbing)
-    if gap is Gap.PISTON:
-        return piston_revolution(asked.rotor, parts, driven.piston, asked.options, before, report)
-    return slipper_revolution(asked.rotor, parts, driven.slipper, asked.options, before, report)
+def gap_revolutions(
+    asked: RoundDrives,
+    group: Group,
+    driven: Sequence[Drives],
+    before: Sequence[FloatingGaps] | None,
+    beside: Sequence[GapsBeside],
+    report: Report,
+    solved: Solved,
+) -> tuple[FloatingGaps, ...]:
+    """The gaps of each kind over the revolution, continued from those before.
+
+    Those of processes `beside` are fetched from them, in which the round has started. Each gap is kept in `solved` as
+    soon as it is found.
+    """
+    kinds, found = kinds_driven(asked, group, driven), {}
+    apart = {gap for process in beside for gap in process.gaps}
+    for gap in (one for one in Gap if one not in apart):
+        turning = revolutions(gap, asked, group, driven, before_of(gap, before), report)
+        found[gap] = solved.keep(gap, kinds, options_of(gap, asked, group), turning)
+    for process in beside:
+        for gap, turned in process.fetch(report):
+            found[gap] = solved.keep(gap, kinds, options_of(gap, asked, group), turned)
+    (block,) = found[Gap.VALVE_PLATE]
+    return tuple(
+        FloatingGaps(piston, slipper, block, of.chambers[0])
+        for piston, slipper, of in zip(found[Gap.PISTON], found[Gap.SLIPPER], kinds, strict=True)
+    )
