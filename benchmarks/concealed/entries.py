@@ -48,11 +48,14 @@ def enter(recordings: Path, answers: Path, names: Sequence[str], *, with_rivals:
 
 
 def our_answer(recording: str, found: Outcome) -> Answer:
-    """Return a verdict of this program as an answer."""
+    """Return a verdict of this program as an answer; a class is of ids, an unknown cause beside them is no id."""
     if found.failed:
         return Answer(recording, Kind.NO_MISMATCH.value, "failed", (), (), found.seconds)
-    names = tuple(Name(one.effect, one.pair or "", one.probability, one.equivalent)
-                  for one in found.claims if one.effect in IDS)  # fmt: skip
+    names = tuple(
+        Name(one.effect, one.pair or "", one.probability, tuple(other for other in one.equivalent if other in IDS))
+        for one in found.claims
+        if one.effect in IDS
+    )
     ranking = tuple(Ranked(one.effects, tuple(pair or "" for pair in one.pairs), one.probability)
                     for one in found.ranked)  # fmt: skip
     status = "suspicion" if found.status == "suspicion" else "named"

@@ -292,9 +292,11 @@ def test_our_verdicts_as_answers(bench, truths):
     from proof.outcome import Claimed, Outcome, Ranked
 
     blank = Outcome("b", "", "", 0, 0.0, 0.0, {}, "", (), (), {})
-    claimed = (Claimed("elastic_opening", "slipper", 0.97, ("film_thickness",)),)
+    claimed = (Claimed("elastic_opening", "slipper", 0.97, ("film_thickness", "unknown_physics")),)
     told = Outcome(**vars(blank) | {"verdict": "missing_physics", "status": "incomplete", "claims": claimed})
-    assert bench.scoring.score("ours", truths[1:2], {"b": our_answer("b", told)}).right.hits == 1
+    answer = our_answer("b", told)
+    assert answer.names[0].equivalent == ("film_thickness",)  # an unknown cause is no id of the list
+    assert bench.scoring.score("ours", truths[1:2], {"b": answer}).right.hits == 1
     weighed = (Ranked((), (), "no_mismatch", 0.96), Ranked(("churning",), (None,), "missing_physics", 0.04))
     quiet = our_answer("a", Outcome(**vars(blank) | {"verdict": "no_mismatch", "status": "named", "ranked": weighed}))
     assert bench.scoring.score("ours", truths[:1], {"a": quiet}).in_set.hits == 1
