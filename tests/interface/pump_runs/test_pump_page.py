@@ -133,6 +133,13 @@ def test_floating_films_tell_the_thinnest_the_hottest_and_what_rubs(summary):
     assert "Parts rub on each other at one piston-cylinder (12 W)." in found.words
 
 
+@pytest.mark.parametrize(("film", "shown"), [(0.71e-9, "0.00071 um"), (0.2e-6, "0.20 um"), (-0.3e-6, "-0.30 um")])
+def test_a_film_of_nanometres_is_not_told_as_none(film, shown, summary):
+    gaps = {"piston": GAP | {"film_thickness_min_m": film}, "slipper": GAP}
+    found = pump_answer({**summary, "fidelity": "floating", "gaps": gaps, "unlike": {}})
+    assert {tile.name: tile.value for tile in found.tiles}["least film of the turn"] == shown
+
+
 def test_the_answer_counts_chambers_of_the_less_common_kinds(summary):
     """A worn slipper runs hotter, rubs and has the least film, whose error bar is not that of the others."""
     worn = GAP | {"film_thickness_min_m": 0.5e-6, "rubbing_power_W": 40.0, "film_temperature_max_K": 380.0}

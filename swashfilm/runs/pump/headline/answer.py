@@ -105,8 +105,9 @@ def _film_tiles(summary: Mapping[str, Any]) -> Iterator[Tile]:
     thin = least_film(summary)
     place = f"{thin.name}, {thin.numbers['film_thickness_min_at_deg']:.0f} deg"
     exact = "" if thin.chambers else _bar(summary, f"film_least_m.{thin.gap}", 1e6, "um")
-    least = f"{thin.numbers['film_thickness_min_m'] * 1e6:.2f} um"
-    yield Tile(least, "least film of the turn", f"{place}; {exact}" if exact else place)
+    least = thin.numbers["film_thickness_min_m"] * 1e6
+    shown = f"{least:.2f}" if abs(least) >= 0.1 else f"{least:.2g}"  # of nanometres two digits, not zero
+    yield Tile(f"{shown} um", "least film of the turn", f"{place}; {exact}" if exact else place)
     if (hot := hottest_oil(summary)) is not None:
         exact = "" if hot.chambers else _bar(summary, f"hottest_oil_K.{hot.gap}", 1.0, "degC", 273.15)
         note = f"{hot.name}; {exact}" if exact else hot.name
