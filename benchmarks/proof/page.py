@@ -58,8 +58,8 @@ Unless stated otherwise each campaign measures `Q_out`, `Q_in`, `Q_case` and `to
 GATES = """
 The gates were set before the program was written. A case without a required number counts as missed.
 
-- Cases of two parts of the first plant may share a seed: their machine and, on the same campaign, their noise. Those of
-  one part share none. Intervals take all cases as independent.
+- Cases of two parts of the first plant may share a seed: their machine and, on the same campaign, their noise. Cases
+  of one part have seeds of their own. Intervals take all cases as independent.
 - Small sizes: the gate requires a suspicion or a class. At z = 3 a recording is often rightly taken as one without
   mismatch; such verdicts are counted separately.
 - Unknown physics counts as recognised where it is the verdict, or in the class of every claim, as an effect does.

@@ -23,7 +23,7 @@ class Outer:
     """Generalised forces from outside, positive along their coordinate.
 
     force (k,) N, its slopes by position (k, k) N/m and by rate dq/dt (k, k) N s/m: `by_position[i, j]` is
-    dP_i/dq_j. `steady` where there are none.
+    dP_i/dq_j. `steady` gives forces without slopes.
     """
 
     force: Array

@@ -10,6 +10,7 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from system.multibody.plate_kernels import axial
+from system.pump.laws.directions import cone_axis
 from system.pump.laws.kinematics import SwashDrive
 
 SHAFT = np.array([[0.0], [0.0], [1.0]])
@@ -78,8 +79,7 @@ def axial_rates(circle: BoreCircle, plate: Plate, shaft_angle: Array) -> AxialRa
 
 def bore_axes(cone: float, shaft_angle: Array) -> Array:
     """Unit vectors (3, N) of the bores' axes, out of the block."""
-    out, along = np.sin(cone), np.cos(cone) * np.ones_like(shaft_angle)
-    return np.stack([out * np.cos(shaft_angle), out * np.sin(shaft_angle), along])
+    return np.ascontiguousarray(cone_axis(cone, shaft_angle).T)
 
 
 @dataclass(frozen=True)

@@ -103,7 +103,7 @@ def gaps_beside(
 def _process(group: Group, gaps: tuple[Gap, ...], before: Sequence[FloatingGaps] | None) -> Iterator[GapsBeside]:
     spawning = multiprocessing.get_context("spawn")
     ours, theirs = spawning.Pipe()
-    first = {gap: before_of(gap, before) for gap in gaps}
+    first = {gap: _before_of(gap, before) for gap in gaps}
     process = spawning.Process(target=_serve, args=(theirs, group, first), daemon=True)
     process.start()
     theirs.close()
@@ -115,7 +115,7 @@ def _process(group: Group, gaps: tuple[Gap, ...], before: Sequence[FloatingGaps]
         process.join()
 
 
-def before_of(gap: Gap, gaps: Sequence[FloatingGaps] | None) -> tuple[Found, ...]:
+def _before_of(gap: Gap, gaps: Sequence[FloatingGaps] | None) -> tuple[Found, ...]:
     """The revolutions of a gap, one of each kind of chambers, of the block alone; none without gaps."""
     match gap:
         case Gap.PISTON:
@@ -174,7 +174,7 @@ def gap_revolutions(
     kinds, found = kinds_driven(asked, group, driven), {}
     apart = {gap for process in beside for gap in process.gaps}
     for gap in (one for one in Gap if one not in apart):
-        turning = revolutions(gap, asked, group, driven, before_of(gap, before), report)
+        turning = revolutions(gap, asked, group, driven, _before_of(gap, before), report)
         found[gap] = solved.keep(gap, kinds, options_of(gap, asked, group), turning)
     for process in beside:
         for gap, turned in process.fetch(report):

@@ -11,7 +11,12 @@ from system.pump.laws.kinematics import SwashDrive
 
 def bore_axis(drive: SwashDrive, shaft_angle: Array | float) -> Array:
     """Unit vectors (..., 3) of a bore axis at angles (...), out of the block; cones open towards the swash plate."""
-    cone, angle = drive.bore_cone_angle, np.asarray(shaft_angle)
+    return cone_axis(drive.bore_cone_angle, shaft_angle)
+
+
+def cone_axis(cone: float, shaft_angle: Array | float) -> Array:
+    """The same (..., 3) of bores inclined to the shaft by a cone's half angle (rad)."""
+    angle = np.asarray(shaft_angle)
     out = np.full(angle.shape, np.cos(cone))
     return np.stack([np.sin(cone) * np.cos(angle), np.sin(cone) * np.sin(angle), out], axis=-1)
 
