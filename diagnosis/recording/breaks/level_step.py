@@ -47,7 +47,7 @@ class LevelStep:
 
 def level_step(values: Array, law: Array) -> LevelStep | None:
     """The step (K, d) that lowers the sum of squares most: values (N,), law (N, m), nan in gaps; None for too few
-    points.
+    points, and where the law leaves nothing.
     """
     known = np.isfinite(values) & np.all(np.isfinite(law), axis=1)
     rows, free = np.flatnonzero(known), int(known.sum()) - law.shape[1] - 1
@@ -65,6 +65,8 @@ def level_step(values: Array, law: Array) -> LevelStep | None:
     gain = np.where(allowed, behind**2 / np.where(allowed, length, 1.0), 0.0)
     at = int(np.argmax(gain))
     of_law = float(residual @ residual)
+    if of_law <= TINY**2 * float(values[known] @ values[known]):
+        return None
     squares = max(of_law - float(gain[at]), 0.0)
     error = float(np.sqrt(squares / free / length[at]))
     return LevelStep(int(rows[at]), float(behind[at] / length[at]), squares, of_law, error)

@@ -46,12 +46,27 @@ def at_rest(readings: Array, names: Sequence[ChannelName]) -> Mask:
     name = _of_rest(names)
     if name is None:
         return np.zeros(len(readings), dtype=bool)
-    column = readings[:, list(names).index(name)]
+    rests = _low(readings[:, list(names).index(name)])
+    if name is not ChannelName.SPEED and ChannelName.DISPLACEMENT_RATIO in names:
+        rests &= ~(np.abs(readings[:, list(names).index(ChannelName.DISPLACEMENT_RATIO)]) < REST)
+    return rests
+
+
+def all_at_rest(readings: Array, names: Sequence[ChannelName]) -> Mask:
+    """Samples (T,) at which speed and each measured port flow are at rest; none where only one of them is measured.
+
+    A single one may be low because its unit changes.
+    """
+    columns = [list(names).index(name) for name in _OF_REST if name in names]
+    if len(columns) < 2:
+        return np.zeros(len(readings), dtype=bool)
+    return np.all([_low(readings[:, column]) for column in columns], axis=0)
+
+
+def _low(column: Array) -> Mask:
+    """Samples (T,) that are a small share of the usual reading of their channel at work."""
     with np.errstate(invalid="ignore"):
-        rests = np.abs(column) <= _limit(column)
-        if name is not ChannelName.SPEED and ChannelName.DISPLACEMENT_RATIO in names:
-            rests &= ~(np.abs(readings[:, list(names).index(ChannelName.DISPLACEMENT_RATIO)]) < REST)
-    return np.asarray(rests)
+        return np.asarray(np.abs(column) <= _limit(column))
 
 
 def _of_rest(names: Sequence[ChannelName]) -> ChannelName | None:

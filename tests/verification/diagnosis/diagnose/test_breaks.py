@@ -80,6 +80,24 @@ def test_a_unit_that_changes_is_found_with_its_row_and_both_units(channel, unit,
     assert unit in fault.found or not behind  # of an early part the same ratio may be another unit behind
 
 
+@pytest.mark.parametrize("held", [1.0, 0.5])
+def test_a_channel_that_is_held_at_one_value_has_no_break(held):
+    """Full stroke at all points is exactly 1, whose logarithm leaves nothing beside any law."""
+    ratio = ChannelName.DISPLACEMENT_RATIO
+    form = channel_form(ratio, channel_section(ratio)(column="ratio", unit="1"), PressureReference.GAUGE)
+    assert list(unit_changes(np.column_stack([table(), np.full(120, held)]), [*FORMS, form])) == []
+
+
+@pytest.mark.parametrize("rest", [slice(0, 12), slice(60, 72), slice(108, 120)])
+@pytest.mark.parametrize("seed", range(4))
+def test_a_pump_at_rest_is_no_change_of_unit(rest, seed):
+    """Flows and torque about zero, of either sign, while the pump stands."""
+    readings = table(seed)
+    readings[rest, 0] = 0.0
+    readings[rest, 3:] *= 1e-3 * np.random.default_rng(seed).uniform(-0.1, 1.0, (12, 3))
+    assert faults(readings) == []
+
+
 def test_another_pump_is_found_by_its_flow_and_torque():
     readings = table()
     readings[ROW:] = table(2, displacement=63e-6)[ROW:]
