@@ -17,6 +17,7 @@ from diagnosis.recording.breaks.sampled_rows import rows_are_samples
 from diagnosis.recording.channel_form import ChannelForm
 from diagnosis.recording.channel_noise import recorded_channel
 from diagnosis.recording.form import RecordingForm, SeriesSection, SteadySection, read_form
+from diagnosis.recording.guess.unit_text import read_unit
 from diagnosis.recording.model import RecordedChannel, Recording, SteadyTable
 from diagnosis.recording.replicates import repeatability, set_points
 from diagnosis.recording.series.points import SeriesPoints, series_points
@@ -28,7 +29,7 @@ from system.inputs.channels import INPUTS, ChannelName
 from system.inputs.faults import Fault, InputFaults, nearest_path
 from system.inputs.sections.reader import Reading
 from system.inputs.toml_table import fault_lines, read_toml
-from system.inputs.units import QuantityError, unit_scale
+from system.inputs.units import unit_scale
 
 FILE = "recording.toml"
 
@@ -167,11 +168,10 @@ def _hold_units(channels: Sequence[ChannelForm], columns: TableColumns, reader: 
     """Warn of each channel whose unit in the table itself differs from the stated one."""
     for channel in channels:
         in_table, dimension = columns.units.get(channel.column, ""), channel.name.dimension
-        try:
-            own = unit_scale(in_table, dimension) if in_table and dimension else None
-        except QuantityError:
+        own = read_unit(in_table) if in_table and dimension else None
+        if own is None or dimension is None or own.dimension is not dimension:
             continue
-        if own is not None and dimension and not math.isclose(own[0], unit_scale(channel.unit, dimension)[0]):
+        if not math.isclose(unit_scale(own.unit, dimension)[0], unit_scale(channel.unit, dimension)[0]):
             reader.warn(f"{channel.name.value}: read in {channel.unit} as stated; the table says {in_table}")
 
 

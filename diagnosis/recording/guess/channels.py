@@ -79,6 +79,8 @@ def _told(head: Head) -> ChannelName | None:
         return None
     if head.quantity is Quantity.POWER:
         return ChannelName.ELECTRIC_POWER if head.electric else None
+    if head.quantity is Quantity.RATIO and head.unknown:
+        return None  # an angle or a volume, whose share of full stroke its size does not tell
     if head.quantity in _SINGLE:
         return _SINGLE[head.quantity]
     return _PLACED[head.quantity].get(head.place) if head.quantity in _PLACED and head.place else None
@@ -106,7 +108,11 @@ def _with_units(
             continue
         head, doubts = taken[name]
         unit = head.unit.unit if head.unit else _unit(name, values[head.column], channels)
-        doubts = doubts if head.unit else (*doubts, "unit, by its size")
+        if not head.unit:
+            doubts = (
+                *doubts,
+                f"unit, by its size{f': {head.unknown!r} is none that is known' if head.unknown else ''}",
+            )
         channels.append(GuessedChannel(name, head.column, unit, head.reference, doubts))
     return tuple(channels)
 

@@ -17,13 +17,13 @@ class Quantity(Enum):
     """
 
     TIME = (Dimension.TIME, "time zeit t timestamp uhrzeit zeitstempel temps 时间")
-    SPEED = (Dimension.ANGULAR_SPEED, "speed n rpm drehzahl rotation vitesse 转速")
+    SPEED = (Dimension.ANGULAR_SPEED, "speed n rpm drehzahl rotation vitesse regime 转速")
     TORQUE = (Dimension.TORQUE, "torque m md trq moment drehmoment couple 扭矩 转矩")
     TEMPERATURE = (Dimension.TEMPERATURE, "temperature temp temperatur t 温度 油温")
     FLOW = (Dimension.VOLUME_FLOW, "flow q strom durchfluss leakage leckage drain debit fuite 流量")
     POWER = (Dimension.POWER, "power leistung pel puissance 功率")
     PRESSURE = (Dimension.PRESSURE, "pressure press druck p hd nd hp lp pression 压力 油压")
-    RATIO = (None, "displacement ratio schwenk swash alpha verstell beta foerdervolumen vg cylindree 排量")
+    RATIO = (None, "displacement ratio stroke schwenk swash alpha verstell beta foerdervolumen vg cylindree 排量")
 
     dimension: Dimension | None
     words: tuple[str, ...]
@@ -52,13 +52,17 @@ class Place(Enum):
 
 @dataclass(frozen=True)
 class Head:
-    """A column's head as read: quantity and place (None: not stated), unit, and the zero of a pressure."""
+    """A column's head as read: quantity and place (None: not stated), unit, and the zero of a pressure.
+
+    unknown: the text in the place of a unit that is no known one.
+    """
 
     column: str
     quantity: Quantity | None
     place: Place | None
     unit: ReadUnit | None
     electric: bool
+    unknown: str = ""
 
     @property
     def reference(self) -> PressureReference | None:
@@ -71,8 +75,11 @@ _REFERENCE_BEHIND = re.compile(r"(bar|psi|mpa|kpa|pa)\s*\((abs|a|gauge|g|rel)\)[
 _NUMBERED = re.compile(r".*:\d+")  # a column of a matrix
 _UMLAUTS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss"})
 _ACCENTS = str.maketrans("éèêàâîôûç", "eeeaaiouc")
-_SPLIT = re.compile(r"(?<![A-Za-z])[pPTQ](?=[A-Za-z](?![A-Za-z]))|[A-Z]?[a-z]+|[A-Z]+(?![a-z])|[^\x00-\u2e7f]+|\d+")
-"""Words; a symbol and its index of one letter, as in QL and ps, are two."""
+_INDICES = "|".join(word for place in Place for word in place.value.split() if word.isascii())
+_SPLIT = re.compile(
+    rf"(?<![A-Za-z])[pPTQ](?=(?:[A-Za-z]|(?i:{_INDICES}))(?![A-Za-z]))|[A-Z]?[a-z]+|[A-Z]+(?![a-z])|[^\x00-\u2e7f]+|\d+"
+)
+"""Words; a symbol and its index, one letter or a place, as in QL, ps and Tcase, are two."""
 _ELECTRIC = ("elec", "elek", "netz", "mains")
 _PART = 4  # letters from which a word counts inside of another
 
@@ -95,7 +102,7 @@ def read_head(column: str, in_table: str = "") -> Head:
         spoken, unit = _with_ending(bare, words, spoken)
     place = next((one for one in Place if _among(one.value.split(), words)), None)
     electric = "el" in words or "pel" in words or any(part in word for part in _ELECTRIC for word in words)
-    return Head(column, spoken, place, unit, electric)
+    return Head(column, spoken, place, unit, electric, "" if unit else in_table)
 
 
 def _quantity(bare: str, words: list[str], unit: ReadUnit | None) -> Quantity | None:

@@ -24,6 +24,8 @@ RISING = 0.95
 """Share of the steps of a time that rise."""
 CHARGED = 5e5
 """Pa gauge: inlet pressure from which a circuit counts as closed."""
+AMBIENT = (7e4, 1.3e5)
+"""Pa: inlet pressure of an open circuit that is absolute where nothing is stated."""
 SIGMA_SHARE = 0.002
 SIGMAS = {Dimension.TEMPERATURE: 0.3, Dimension.PRESSURE: 1e3, Dimension.VOLUME_FLOW: 0.01 / LPM}
 """One sigma of an unknown repeatability: share of the median reading, and at least this, SI."""
@@ -55,7 +57,7 @@ def guessed_recording(source: TableSource, table: TableColumns, circuit: Circuit
         "format = 1",
         _line(f"title = {quoted(source.path.stem)}", "of the report"),
         _line(f"circuit = {quoted(found.value)}", of_circuit),
-        _reference_line(reference),
+        _reference_line(reference, columns, table.values),
         *_section(source, columns, table, series),
         *_channel_rows(columns, table.values, reference, series),
         *(f"# missing: {line}" for line in absent),
@@ -81,17 +83,27 @@ def _circuit(circuit: Circuit | None, columns: GuessedColumns, values: Mapping[s
     """Return the circuit, and its origin in words."""
     if circuit is not None:
         return circuit, "or open, closed"
-    inlet = next((one for one in columns.channels if one.name is ChannelName.P_IN), None)
-    if inlet is None:
+    middle = _inlet_pressure(columns, values)
+    if middle is None:
         return Circuit.OPEN, "guessed: no inlet pressure; or closed"
-    middle = _median(values[inlet.column]) * unit_scale(inlet.unit, Dimension.PRESSURE)[0]
     words = f"guessed: by the inlet pressure, {middle * 1e-5:.3g} bar"
     return Circuit.CLOSED if middle > CHARGED else Circuit.OPEN, words
 
 
-def _reference_line(reference: PressureReference | None) -> str:
+def _inlet_pressure(columns: GuessedColumns, values: Mapping[str, Array]) -> float | None:
+    """Return the median inlet pressure in Pa as read; None without its channel."""
+    inlet = next((one for one in columns.channels if one.name is ChannelName.P_IN), None)
+    return None if inlet is None else _median(values[inlet.column]) * unit_scale(inlet.unit, Dimension.PRESSURE)[0]
+
+
+def _reference_line(reference: PressureReference | None, columns: GuessedColumns, values: Mapping[str, Array]) -> str:
+    """Return the line of the zero of pressures, stated or guessed."""
     if reference is not None:
         return _line(f"pressure_reference = {quoted(reference.value)}", "of all pressures that state no other")
+    middle = _inlet_pressure(columns, values)
+    if middle is not None and AMBIENT[0] <= middle <= AMBIENT[1]:
+        words = f"guessed: by the inlet pressure, {middle * 1e-5:.3g} bar; or gauge"
+        return _line(f"pressure_reference = {quoted(PressureReference.ABSOLUTE.value)}", words)
     return _line(f"pressure_reference = {quoted(PressureReference.GAUGE.value)}", "guessed; or absolute")
 
 

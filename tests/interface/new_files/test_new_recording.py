@@ -157,12 +157,53 @@ def test_a_time_series_is_taken_as_one(tmp_path):
         ("进口油温 [°C]", "T_in", "degC"),
         ("泄漏流量 [L/min]", "Q_case", "L/min"),
         ("转速 [rpm]", "speed", "rpm"),
+        ("Vitesse [tr/min]", "speed", "rpm"),
+        ("n [min⁻¹]", "speed", "rpm"),
+        ("Stroke [%]", "displacement_ratio", "%"),
+        ("Swash [pct]", "displacement_ratio", "%"),
+        ("Case flow [gpm]", "Q_case", "gallon/min"),
+        ("Outlet flow [US gal/min]", "Q_out", "gallon/min"),
+        ("Q_CASE [LPM]", "Q_case", "L/min"),
+        ("Torque [in-lbf]", "torque", "lbf inch"),
+        ("Torque [lb-ft]", "torque", "lbf ft"),
+        ("Torque [N-m]", "torque", "N m"),
+        ("Outlet pressure [MPA]", "p_out", "MPa"),
+        ("Outlet pressure [kg/cm2]", "p_out", "kgf/cm2"),
+        ("Tcase [DEG F]", "T_case", "degF"),
+        ("Qcase [l/min]", "Q_case", "l/min"),
+        ("pOut [bar]", "p_out", "bar"),
     ],
 )  # fmt: skip
 def test_heads_as_benches_write_them(head, channel, unit):
     units = {head: head.rpartition("[")[2].rpartition("(")[2].strip("])")} if head.endswith(("]", ")")) else {}
     found = guessed_columns(TableColumns({head: np.array([100.0, 1500.0])}, units=units)).channels
     assert [(one.name.value, one.unit) for one in found] == [(channel, unit)]
+
+
+def _guessed(head, unit, numbers=(100.0, 150.0)):
+    return guessed_columns(TableColumns({head: np.array(numbers)}, units={head: unit}))
+
+
+@pytest.mark.parametrize("unit", ["skt", "mA", "V", "scfm"])
+def test_a_unit_that_is_not_known_is_told_beside_the_guess(unit):
+    """A text that resembles a unit is none, and no letter of it makes a torque a time."""
+    (found,) = _guessed(f"Torque [{unit}]", unit).channels
+    assert (found.name, found.unit) == (ChannelName.TORQUE, "N m")
+    assert found.doubts == (f"unit, by its size: '{unit}' is none that is known",)
+
+
+@pytest.mark.parametrize("unit", ["deg", "°", "cm3"])
+def test_an_angle_of_the_swash_plate_is_no_share_of_full_stroke(unit):
+    found = _guessed(f"Schwenkwinkel [{unit}]", unit, (4.0, 16.2))
+    assert (found.channels, found.others) == ((), (f"Schwenkwinkel [{unit}]",))
+
+
+@pytest.mark.parametrize(("inlet", "taken"), [(1.01, "absolute"), (0.85, "absolute"), (0.1, "gauge"), (25.0, "gauge")])
+def test_an_inlet_at_one_bar_is_absolute(tmp_path, inlet, taken):
+    """What no head says about the zero of pressures the inlet of an open circuit tells."""
+    rows = [f"{100 + k};{inlet + 0.001 * k};1500;{30 + k}" for k in range(12)]
+    (tmp_path / "map.csv").write_text("\n".join(["p_out [bar];p_in [bar];n [rpm];Q_out [l/min]", *rows]), "utf-8")
+    assert f'pressure_reference = "{taken}"' in sf.new("recording", tmp_path / "map.csv").read_text("utf-8")
 
 
 @pytest.mark.parametrize("head", ["point", "Messpunkt", "Leistung [kW]", "M:1", "remark", "id"])
