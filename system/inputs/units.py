@@ -107,8 +107,17 @@ class QuantityError(ValueError):
 _HABITS = {
     Dimension.TEMPERATURE: {"C": "degC", "c": "degC", "F": "degF", "deg": "degC"},
     Dimension.DISPLACEMENT: {"ccm": "cm3/rev", "ccm/U": "cm3/rev", "cm3/U": "cm3/rev"},
-    Dimension.VOLUME_FLOW: {"l/m": "L/min", "LPM": "L/min", "l": "L/min"},
-}
+    Dimension.VOLUME_FLOW: {
+        "l/m": "L/min", "LPM": "L/min", "l": "L/min",
+        **dict.fromkeys(("gpm", "GPM", "US gpm", "US gal/min"), "gallon/min"),
+    },
+    Dimension.TORQUE: {
+        **dict.fromkeys(("in-lbf", "in-lb", "lb-in", "lbf-in"), "lbf inch"),
+        **dict.fromkeys(("ft-lbf", "ft-lb", "lb-ft", "lbf-ft"), "lbf ft"),
+    },
+    Dimension.ANGULAR_SPEED: {"tr/min": "r/min"},
+    Dimension.PRESSURE: {"psig": "psi", "barg": "bar"},
+}  # fmt: skip
 """Wrong units that benches write, each with the unit that is meant."""
 _TRADE = {
     Dimension.ANGULAR_SPEED: {

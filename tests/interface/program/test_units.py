@@ -184,3 +184,20 @@ def test_what_benches_write_is_understood_as_a_hint(text, dimension, meant):
     with pytest.raises(QuantityError) as caught:
         unit_scale(text.split()[1], dimension)
     assert caught.value.nearest == f"'{meant.split()[1]}"
+
+
+@pytest.mark.parametrize(
+    ("written", "dimension", "meant"),
+    [
+        ("gpm", Dimension.VOLUME_FLOW, "gallon/min"),
+        ("US gal/min", Dimension.VOLUME_FLOW, "gallon/min"),
+        ("in-lbf", Dimension.TORQUE, "lbf inch"),
+        ("lb-ft", Dimension.TORQUE, "lbf ft"),
+        ("tr/min", Dimension.ANGULAR_SPEED, "r/min"),
+        ("psig", Dimension.PRESSURE, "psi"),
+    ],
+)
+def test_a_unit_as_benches_write_it_has_its_name_as_the_nearest_choice(written, dimension, meant):
+    with pytest.raises(QuantityError) as refused:
+        unit_scale(written, dimension)
+    assert refused.value.nearest == f"'{meant}'"
