@@ -5,7 +5,8 @@
     python benchmarks/peers.py --page docs/benchmarks.md  writes the page too
 
 Each peer is a script in `benchmarks/peers`, run on one thread as a process of its own, once per mesh; `peer.py`
-there says what is timed. A peer that is not installed is named with the way to install it, and left out.
+there says what is timed. Those that are not of this environment run in a Debian 13 of their own, `build/peers/debian`,
+which chroot enters (as root). A peer that is not installed is named with the way to install it, and left out.
 """
 
 from __future__ import annotations
@@ -29,7 +30,10 @@ from rich.console import Console
 from rich.table import Table
 
 HERE = Path(__file__).resolve().parent
-ROSS = HERE.parent / "build" / "peers" / "ross"
+DEBIAN = HERE.parent / "build" / "peers" / "debian"
+WITHIN = Path("tmp") / "peers"
+"""The scripts' place in it."""
+ROSS = Path("/opt/ross")
 CELLS = {1: (24, 80, 250, 790), 2: (12, 40, 126, 396)}
 """Cells round the bearing: as many unknowns with either order. Their numbers are even, so that no cell lies across the
 least film, where the load's integrand has a kink: its integral would err more than the film."""
@@ -42,11 +46,15 @@ TIMEOUT = 600.0
 
 @dataclass(frozen=True)
 class Peer:
-    """A solver as its users run it: elements, program and script, Python module it needs (FreeFEM none)."""
+    """A solver as its users run it: elements, program and script, Python module it needs (FreeFEM none).
+
+    debian: whether the program is that of DEBIAN.
+    """
 
     name: str
     elements: str
     degree: int
+    debian: bool
     program: str
     script: str
     module: str
@@ -68,55 +76,65 @@ class Measured:
 
 
 def _peers() -> tuple[Peer, ...]:
-    debian, own = "/usr/bin/python3", sys.executable
-    dolfinx, freefem = "apt-get install python3-dolfinx", "apt-get install freefem++"
+    inside, own = f"chroot {DEBIAN.relative_to(HERE.parent)}", sys.executable
+    debian = f"debootstrap --variant=minbase trixie {DEBIAN.relative_to(HERE.parent)} http://deb.debian.org/debian"
+    apt = f"{debian}; {inside} apt-get install --no-install-recommends"
+    dolfinx, freefem = f"{apt} python3-dolfinx", f"{apt} freefem++"
     found = []
     for degree in (1, 2):
-        quads, triangles = f"Q{degree}", f"P{degree}"
+        quads, triangles, python = f"Q{degree}", f"P{degree}", "/usr/bin/python3"
         found += [
-            Peer("this solver", quads, degree, own, "run_swashfilm.py", "reynolds", "", "make install"),
-            Peer("scikit-fem + spsolve", quads, degree, own, "run_scikit_fem.py", "skfem", "", "make install"),
-            Peer("dolfinx, Cholesky", quads, degree, debian, "run_dolfinx.py", "dolfinx", "direct", dolfinx),
-            Peer("dolfinx, CG + GAMG", quads, degree, debian, "run_dolfinx.py", "dolfinx", "multigrid", dolfinx),
+            Peer("this solver", quads, degree, False, own, "run_swashfilm.py", "reynolds", "", "make install"),
+            Peer("scikit-fem + spsolve", quads, degree, False, own, "run_scikit_fem.py", "skfem", "", "make install"),
+            Peer("dolfinx, Cholesky", quads, degree, True, python, "run_dolfinx.py", "dolfinx", "direct", dolfinx),
+            Peer("dolfinx, CG + GAMG", quads, degree, True, python, "run_dolfinx.py", "dolfinx", "multigrid", dolfinx),
         ]
         for method in ("UMFPACK", "CHOLMOD"):
             name = f"FreeFEM, {method}"
-            found.append(Peer(name, triangles, degree, "FreeFem++-nw", "run_freefem.edp", "", method, freefem))
-    folder = ROSS.relative_to(HERE.parent)
-    ross = f'python3 -m venv {folder} && {folder}/bin/pip install ross-rotordynamics "plotly<6"'
-    found.append(Peer("ROSS FluidFlow", "FD", 1, str(ROSS / "bin" / "python"), "run_ross.py", "ross", "", ross))
+            found.append(Peer(name, triangles, degree, True, "FreeFem++-nw", "run_freefem.edp", "", method, freefem))
+    pip = f"{inside} sh -c 'python3 -m venv {ROSS} && {ROSS}/bin/pip install ross-rotordynamics'"
+    ross = f"{apt} python3-venv; {pip}"
+    found.append(Peer("ROSS", "Q1", 1, True, str(ROSS / "bin" / "python"), "run_ross.py", "ross", "", ross))
     return tuple(found)
 
 
-def grid(peer: Peer, size: int) -> tuple[int, int] | None:
-    """Cells round and across the bearing; None where ROSS cannot, whose matrix is dense."""
-    if peer.module == "ross":
-        return ((16, 4), (64, 16), (200, 50), None)[size]  # the whole width, four times as fine round it
-    cells = CELLS[peer.degree][size]
-    return cells, rows(cells)
+def program(peer: Peer) -> list[str]:
+    """Start of the peer's command line."""
+    return ["chroot", str(DEBIAN.resolve()), peer.program] if peer.debian else [peer.program]
+
+
+def scripts(peer: Peer) -> Path:
+    """Folder of the scripts as the peer's program sees it."""
+    return Path("/") / WITHIN if peer.debian else HERE
+
+
+def lend_scripts() -> None:
+    """Copy the scripts to where programs of DEBIAN see them."""
+    if DEBIAN.exists():
+        shutil.copytree(HERE / "peers", DEBIAN / WITHIN / "peers", dirs_exist_ok=True)
+        shutil.copy(HERE / "journal_case.py", DEBIAN / WITHIN)
 
 
 def installed(peer: Peer) -> bool:
     """Whether the peer's program and the module that it needs are installed."""
-    if shutil.which(peer.program) is None:
+    if peer.debian and (not DEBIAN.exists() or shutil.which("chroot") is None):
         return False
     probe = f"import importlib.util, sys; sys.exit(importlib.util.find_spec({peer.module!r}) is None)"
-    return not peer.module or subprocess.run([peer.program, "-c", probe], check=False).returncode == 0
+    asked = [*program(peer), "-c", probe] if peer.module else [*program(peer)[:-1], "which", peer.program]
+    return subprocess.run(asked, check=False, capture_output=True).returncode == 0
 
 
 def measure(peer: Peer, size: int) -> Measured | str:
     """The peer's line for one mesh, or the reason of its absence in words."""
-    mesh = grid(peer, size)
-    if mesh is None:
-        return "its matrix is dense: 80 GB"
+    cells, folder = CELLS[peer.degree][size], scripts(peer)
     arguments = {
-        "degree": peer.degree, "cells": mesh[0], "rows": mesh[1], "repeats": REPEATS[size],
+        "degree": peer.degree, "cells": cells, "rows": rows(cells), "repeats": REPEATS[size],
         "eccentricity": ECCENTRICITY, "method": peer.method or "default",
     }  # fmt: skip
     quiet = [] if peer.module else ["-v", "0"]
-    command = [peer.program, *quiet, str(HERE / "peers" / peer.script)]
+    command = [*program(peer), *quiet, str(folder / "peers" / peer.script)]
     command += [text for name, value in arguments.items() for text in (f"-{name}", str(value))]
-    alone = os.environ | dict.fromkeys(THREADS, "1") | {"PYTHONPATH": str(HERE)}
+    alone = os.environ | dict.fromkeys(THREADS, "1") | {"PYTHONPATH": str(folder)}
     try:
         run = subprocess.run(command, env=alone, capture_output=True, text=True, timeout=TIMEOUT, check=False)
     except subprocess.TimeoutExpired:
@@ -267,6 +285,7 @@ def run_all(console: Console, sizes: Sequence[int]) -> tuple[list[Measured], lis
     """Every peer on every mesh, and those left out with the reason."""
     measured: list[Measured] = []
     left_out: list[str] = []
+    lend_scripts()
     for peer in _peers():
         if not installed(peer):
             left_out.append(f"{peer.name} {peer.elements}: not installed; to install it: `{peer.install}`")

@@ -26,7 +26,7 @@ case = asked()
 plane = mesh.create_rectangle(
     MPI.COMM_WORLD, [[0.0, 0.0], [ROUND, 1.0]], [case.cells, case.rows], mesh.CellType.quadrilateral
 )
-space = fem.FunctionSpace(plane, ("Lagrange", case.degree))
+space = fem.functionspace(plane, ("Lagrange", case.degree))
 x = ufl.SpatialCoordinate(plane)
 thickness = 1.0 + case.eccentricity * ufl.cos(x[0])
 # By default UFL uses 49 points in a Q1 cell (degree 13, for the cosines) instead of four.
@@ -55,9 +55,9 @@ def solve() -> None:
     with load.localForm() as local:
         local.set(0.0)
     petsc.assemble_vector(load, couette)
-    petsc.apply_lifting(load, [conductance], [[zero]])
+    petsc.apply_lifting(load, [conductance], bcs=[[zero]])
     petsc.set_bc(load, [zero])
-    krylov.solve(load, pressure.vector)
+    krylov.solve(load, pressure.x.petsc_vec)
     if krylov.getConvergedReason() < 0:
         raise RuntimeError(f"PETSc did not converge: reason {krylov.getConvergedReason()}")
 
