@@ -1,8 +1,8 @@
 """dolfinx with PETSc, for Debian's own Python: matrix, vectors and solver kept from film to film.
 
-`direct` is PETSc's Cholesky factorisation with its symbolic part kept: on this case faster than the LU of
-PETSc, MUMPS, SuperLU and UMFPACK and than CHOLMOD. `multigrid` is conjugate gradients with GAMG, PETSc's own
-algebraic multigrid, to 1e-8; hypre's BoomerAMG takes about as long.
+`direct` is PETSc's Cholesky factorisation with its symbolic part kept: on this case up to 1e4 unknowns faster than the
+LU of PETSc, MUMPS, SuperLU and UMFPACK and than CHOLMOD (which is 15 % faster at 1e5). `multigrid` is conjugate
+gradients with GAMG, PETSc's own algebraic multigrid, to 1e-8; hypre's BoomerAMG takes about as long.
 """
 
 from __future__ import annotations
