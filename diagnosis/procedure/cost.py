@@ -47,7 +47,8 @@ def _material(comparison: PumpComparison) -> Iterator[tuple[bool, str]]:
         if one is not None and is_material(one.unit, one.without, one.found):
             moved = one.found - one.without
             costs = bool(sign * moved > 0.0)
-            yield costs, (cost if costs else gain).format(abs(moved))
+            words = (cost if costs else gain).format(abs(moved))
+            yield costs, words.replace("1 points", "1 point") if words.startswith("1 ") else words
 
 
 def is_material(unit: str, without: float, found: float) -> bool:

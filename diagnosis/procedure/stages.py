@@ -263,6 +263,7 @@ def _finding(
         notes=notes,
         effort=_effort(ranked),
         thresholds=thresholds,
+        left=verdict.left,
     )
 
 

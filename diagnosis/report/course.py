@@ -20,6 +20,8 @@ from system.inputs.channels import ChannelName
 
 ENDS = 0.15
 """Of an axis: the parts at its ends whose difference is stated."""
+NOTHING = 0.005
+"""Of the largest difference: a smaller one is none."""
 SIDES = {
     ChannelName.Q_OUT: ("The pump delivers more oil than simulated", "The pump delivers less oil than simulated"),
     ChannelName.Q_IN: ("The pump takes in more oil than simulated", "The pump takes in less oil than simulated"),
@@ -83,8 +85,9 @@ def _ends(channel: ChannelName, added: Array, axes: Mapping[ChannelName, Array])
     x = axes[axis]
     reach = ENDS * np.ptp(x)
     low, high = x <= x.min() + reach, x >= x.max() - reach
+    none = NOTHING * float(np.abs(added).max())
     return ", ".join(
-        f"{_difference(channel, float(np.median(added[part])))} at "
+        f"{_difference(channel, float(np.median(added[part])), none)} at "
         f"{level_text(axis, float(np.median(x[part])))}{BEHIND.get(axis, '')}"
         for part in (low, high)
     )
@@ -94,8 +97,10 @@ def _correlation(one: Array, other: Array) -> float:
     return float(np.corrcoef(one, other)[0, 1]) if np.ptp(one) > 0.0 else 0.0
 
 
-def _difference(channel: ChannelName, value: float) -> str:
+def _difference(channel: ChannelName, value: float, none: float = 0.0) -> str:
     size = difference(channel, value)
+    if abs(value) < none:
+        return "nothing"
     return f"{abs(size):.2g} {difference_unit(channel)} {'more' if size > 0.0 else 'less'}"
 
 

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from diagnosis.detect.regions import MapRegion
 from diagnosis.recording.units import channel_unit, reading
+from diagnosis.study.map_axes import AXES
 from system.description.gap import Gap
 from system.effects.catalogue.bench_words import BENCH_WORDS
 from system.effects.components import Component
@@ -73,6 +75,25 @@ def setting_text(speed: float, pressure: float, stroke: float) -> str:
     axes = (ChannelName.SPEED, ChannelName.P_OUT, ChannelName.DISPLACEMENT_RATIO)
     turns, load, part = map(level_text, axes, (speed, pressure, stroke))
     return f"{turns}, {load}, {part} stroke"
+
+
+def region_words(region: MapRegion) -> str:
+    """Part of the map: "delivery pressures above 250 bar and strokes below 40 %"."""
+    return listed(_range(axis, region) for axis in AXES if {axis.value} & (region.lower.keys() | region.upper.keys()))
+
+
+def _range(axis: ChannelName, region: MapRegion) -> str:
+    lower, upper = (
+        "" if value is None else level_text(axis, value)
+        for value in (region.lower.get(axis.value), region.upper.get(axis.value))
+    )
+    between = f"from {lower} to {upper}" if lower and upper else f"above {lower}" if lower else f"below {upper}"
+    return f"{CHANNELS[axis]}s {between}"
+
+
+def sentence_case(text: str) -> str:
+    """A text with its first letter large, as a sentence begins; symbols of channels stay."""
+    return text if "_" in text.partition(" ")[0] else f"{text[:1].upper()}{text[1:]}"
 
 
 def pressure_text(pressure: float) -> str:

@@ -6,7 +6,7 @@ from diagnosis.next_point.choose import NextPoint, RankedPoint
 from diagnosis.recording.units import channel_unit, reading
 from diagnosis.report.certainty import stated_probability
 from diagnosis.report.explanations import rivals
-from diagnosis.report.format import CHANNELS, channel_words, if_words, listed, pressure_text, setting_text
+from diagnosis.report.format import CHANNELS, channel_words, if_words, listed, pressure_text, region_words, setting_text
 from diagnosis.study.map_axes import axis_values
 from diagnosis.study.model import Study
 from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
@@ -23,6 +23,7 @@ NO_POINT_TELLS = (
     "No further operating point would tell more: nothing else that could be fitted comes near. The pump's own "
     f"dimensions would: {DIMENSIONS}."
 )
+NOTHING_BETTER = "Nothing else that could be fitted explains the readings better."
 EVEN, POOR = 0.5, 0.2
 """Chances of a decision below which readings hardly decide, and below which they are not worth a test."""
 METERS = (ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE, ChannelName.TORQUE)
@@ -47,11 +48,20 @@ def measure_words(diagnosis: Diagnosis) -> str:
         where = f" at other values of {inputs}" if inputs else ""
         return f"More points{where} tell a law of the catalogue from a cause outside it."
     if diagnosis.status is VerdictStatus.INCOMPLETE:
-        return "Read the points again that still differ most: nothing else that could be fitted explains them better."
+        return _again(diagnosis)
     if stated_probability(diagnosis) < diagnosis.thresholds.name.probability:
         return NO_POINT_TELLS
     possible, _ = rivals(diagnosis)
     return NOTHING_AS_LIKELY if possible else NOTHING_ELSE
+
+
+def _again(diagnosis: Diagnosis) -> str:
+    """The part of the map to read again where a claim leaves a mismatch and nothing else fits better."""
+    place = next((one.region for one in diagnosis.left if one.region is not None), None)
+    if place is None:
+        return f"{NOTHING_BETTER} Points beyond the range recorded may tell more."
+    where = f"{channel_words(place.channel)} at {region_words(place)}"
+    return f"Read points of the part that still differs again: {where}. {NOTHING_BETTER}"
 
 
 def hidden_words(study: Study, examples: str) -> str:

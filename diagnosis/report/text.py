@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from diagnosis.detect.regions import MapRegion
 from diagnosis.detect.time_scan import TimeKind
 from diagnosis.explain.ranked import Explanation
 from diagnosis.recording.units import difference, difference_unit, reading
@@ -18,13 +17,13 @@ from diagnosis.report.format import (
     channel_words,
     effect_words,
     last_word,
-    level_text,
     listed,
+    region_words,
+    sentence_case,
 )
 from diagnosis.report.measure import measure_words
 from diagnosis.report.sizes import finding_sentence
-from diagnosis.study.map_axes import AXES
-from diagnosis.verdict.diagnosis import ClaimedEffect, Diagnosis, VerdictStatus
+from diagnosis.verdict.diagnosis import ClaimedEffect, Diagnosis, Remainder, VerdictStatus
 from diagnosis.verdict.locate import Location
 from system.effects.effect import EffectId, Kind
 from system.inputs.channels import ChannelName
@@ -100,7 +99,7 @@ def where_words(diagnosis: Diagnosis) -> str:
     location = diagnosis.location
     if diagnosis.kind is Kind.NO_MISMATCH or not location.channels:
         return ""
-    region = f", mostly at {_region(location.region)}" if location.region else ""
+    region = f", mostly at {region_words(location.region)}" if location.region else ""
     half = ", where it reaches half of its largest size or more" if location.region and diagnosis.effects else ""
     channels = listed(map(channel_words, location.channels))
     return f"It shows in {channels}{region}{half}.{_times(location)}{_angles(location)}"
@@ -141,20 +140,6 @@ def _sure(diagnosis: Diagnosis) -> str:
     if not diagnosis.effects or diagnosis.status is VerdictStatus.SUSPICION:
         return ""
     return f"Probability {listed(f'{chance(one.probability)} ({one.effect.value})' for one in diagnosis.effects)}."
-
-
-def _region(region: MapRegion) -> str:
-    """Part of the map: "delivery pressures above 250 bar and strokes below 40 %"."""
-    return listed(_range(axis, region) for axis in AXES if {axis.value} & (region.lower.keys() | region.upper.keys()))
-
-
-def _range(axis: ChannelName, region: MapRegion) -> str:
-    lower, upper = (
-        "" if value is None else level_text(axis, value)
-        for value in (region.lower.get(axis.value), region.upper.get(axis.value))
-    )
-    between = f"from {lower} to {upper}" if lower and upper else f"above {lower}" if lower else f"below {upper}"
-    return f"{CHANNELS[axis]}s {between}"
 
 
 def _times(location: Location) -> str:
@@ -237,6 +222,20 @@ def _incomplete(diagnosis: Diagnosis) -> Iterator[str]:
         is_open = any(EffectId.UNKNOWN_PHYSICS in claim.equivalent for claim in diagnosis.effects)
         sure = "" if is_open else f": {names} likely, not sure"
         yield f"A part of the mismatch remains that {they} not explain{sure}."
+        yield from map(_remains, diagnosis.left[:1])
+
+
+def _remains(left: Remainder) -> str:
+    """A part of the mismatch that a claim leaves, as a sentence."""
+    if left.region is not None:
+        side, place = "high" if left.region.contrast > 0.0 else "low", region_words(left.region)
+        return (
+            f"{sentence_case(channel_words(left.region.channel))} still reads too {side} at {place}, by "
+            f"{abs(left.region.contrast):.1f} sigma of the readings there together."
+        )
+    if left.effect is not None:
+        return f"What remains looks like {effect_words([left.effect])} ({left.score:.1f} sigma)."
+    return f"{sentence_case(left.text)}."
 
 
 def _suspicion(diagnosis: Diagnosis) -> str:

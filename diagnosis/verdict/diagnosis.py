@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from diagnosis.detect.mismatch import Detection
+from diagnosis.detect.regions import MapRegion
 from diagnosis.explain.ranked import Explanation, HeldOut
 from diagnosis.explain.scaling import Scaling
 from diagnosis.next_point.choose import NextPoint
@@ -53,11 +54,24 @@ class ClaimedEffect:
 
 
 @dataclass(frozen=True)
+class Remainder:
+    """A part of the mismatch that a claim leaves, as text; region: the part of the map in which a channel stays off;
+    effect: what would explain it, with its score in sigma.
+    """
+
+    text: str
+    region: MapRegion | None = None
+    effect: EffectId | None = None
+    score: float = 0.0
+
+
+@dataclass(frozen=True)
 class Diagnosis:
     """Verdict on a recording with its evidence.
 
     hypotheses: all, the claimed one first; before: the null's fit, after: the claimed one's; fit: held-out
-    residuals; not_identifiable: pairs that this recording cannot separate, as text; thresholds: decided by these.
+    residuals; not_identifiable: pairs that this recording cannot separate, as text; thresholds: decided by these;
+    left: what the claim does not explain.
     """
 
     kind: Kind
@@ -75,3 +89,4 @@ class Diagnosis:
     notes: tuple[str, ...]
     effort: FitEffort
     thresholds: Thresholds
+    left: tuple[Remainder, ...] = ()

@@ -15,11 +15,11 @@ from diagnosis.explain.model_error import behind_unknown, by_chance, chance_of_f
 from diagnosis.explain.ranked import Explanation
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
-from diagnosis.verdict.diagnosis import ClaimedEffect, Estimate, VerdictStatus
+from diagnosis.verdict.diagnosis import ClaimedEffect, Estimate, Remainder, VerdictStatus
 from diagnosis.verdict.doubt import doubted, no_surer
 from diagnosis.verdict.equivalence import NOT_NAMED, agrees, equivalents
 from diagnosis.verdict.multiplier_chance import MultiplierChance, multiplier_chance
-from diagnosis.verdict.residue import residue_notes
+from diagnosis.verdict.residue import remainders
 from diagnosis.verdict.row_numbers import table_rows
 from reynolds.numerics.arrays import Array
 from system.description.gap import Gap
@@ -36,7 +36,7 @@ MISMATCHES = frozenset(Kind) - {Kind.NO_MISMATCH}
 class Judgement:
     """Kind, status and claims of a verdict; members of the claimed class; reasons against more, as text.
 
-    ranked: all explanations, the likeliest first.
+    ranked: all explanations, the likeliest first; left: what the claims do not explain, among the reasons too.
     """
 
     kind: Kind
@@ -45,6 +45,7 @@ class Judgement:
     members: tuple[Explanation, ...]
     reasons: tuple[str, ...]
     ranked: tuple[Explanation, ...]
+    left: tuple[Remainder, ...] = ()
 
 
 def judge(
@@ -89,7 +90,7 @@ def judge(
     against = _objections(study, members, beside, explanations, thresholds)
     if against:
         return _suspicion(explanations, against, _left_open(null, explanations, thresholds), detection, thresholds)
-    left = residue_notes(study, null, members[0], along, thresholds)
+    left = remainders(study, null, members[0], along, thresholds)
     if left:
         explanations, members = _less_sure(explanations, members, thresholds.record.incomplete, (Kind.UNKNOWN_PHYSICS,))
     record = _record_of_scant(study, thresholds)
@@ -98,7 +99,8 @@ def judge(
     claims = _claims(members, beside, explanations, thresholds)
     alike = any(claim.equivalent or claim.elsewhere for claim in claims)
     status = VerdictStatus.INCOMPLETE if left else VerdictStatus.CLASS if alike else VerdictStatus.NAMED
-    return Judgement(members[0].hypothesis.kind, status, claims, members, (*left, *record), explanations)
+    reasons = (*(one.text for one in left), *record)
+    return Judgement(members[0].hypothesis.kind, status, claims, members, reasons, explanations, left)
 
 
 def _record_of_scant(study: Study, thresholds: Thresholds) -> tuple[str, ...]:

@@ -17,6 +17,7 @@ from diagnosis.study.map_axes import axis_values
 from diagnosis.study.model import Study
 from diagnosis.study.multipliers import multiplier_columns
 from diagnosis.thresholds import Thresholds
+from diagnosis.verdict.diagnosis import Remainder
 from diagnosis.verdict.suspects import remaining
 from diagnosis.verdict.trend import power_errors
 from reynolds.errors import NotConverged
@@ -43,10 +44,10 @@ LEAKAGE_AND_FRICTION = (
 MEDIAN = float(norm.isf(0.25))  # of |r| in sigma
 
 
-def residue_notes(
+def remainders(
     study: Study, null: Explanation, best: Explanation, along: Mapping[str, Array], thresholds: Thresholds
-) -> tuple[str, ...]:
-    """Parts of the mismatch that the best explanation leaves, as text; () if it is complete.
+) -> tuple[Remainder, ...]:
+    """Parts of the mismatch that the best explanation leaves; () if it is complete.
 
     A significant part of the map or candidate in the residual counts where chance hardly produces it and its square
     exceeds the share `material` of the explained part in its channel: a law of another form than the pump's leaves a
@@ -55,18 +56,17 @@ def residue_notes(
     after, before = best.posterior, null.posterior
     if after is None or before is None:
         return ()
-    found = list(_form_note(best.hypothesis))
-    found += _scatter(study, after, thresholds)
+    found = [Remainder(text) for text in (*_form_note(best.hypothesis), *_scatter(study, after, thresholds))]
     gained = max(before.objective - after.objective, 0.0)
     least = np.sqrt(thresholds.form.material * gained * _shares(study, best, thresholds))
     found += _regions(study, after, least, thresholds)
     found += _striking(study, after, best.hypothesis, least, thresholds)
-    found += remaining(study, best, thresholds)
-    found += [growth.text for growth in power_errors(study, best, along, thresholds)[:1]]
+    found += map(Remainder, remaining(study, best, thresholds))
+    found += [Remainder(growth.text) for growth in power_errors(study, best, along, thresholds)[:1]]
     if _pulls(after, best.hypothesis) - _pulls(before, best.hypothesis) > 2.0 * thresholds.name.odds:
-        found.append("parameters move farther from their stated values than without it")
+        found.append(Remainder("parameters move farther from their stated values than without it"))
     if _allowed_gain(study, before, after, thresholds) < thresholds.name.odds:
-        found.append(f"errors of form of {thresholds.name.allowance:.1%} would explain as much")
+        found.append(Remainder(f"errors of form of {thresholds.name.allowance:.1%} would explain as much"))
     return tuple(found)
 
 
@@ -108,18 +108,18 @@ def _shares(study: Study, best: Explanation, thresholds: Thresholds) -> Array:
     return np.asarray(squares / squares.sum()) if squares.any() else np.zeros_like(squares)
 
 
-def _regions(study: Study, after: Posterior, least: Array, thresholds: Thresholds) -> Iterator[str]:
+def _regions(study: Study, after: Posterior, least: Array, thresholds: Thresholds) -> Iterator[Remainder]:
     """The first two significant parts of the map in the residual."""
     by_channel = {name: contrasts(after, at) for at, name in enumerate(study.channels)}
     flags = flagged(by_channel, axis_values(study.recording), thresholds)
     for flag in flags[:2]:
         if abs(flag.contrast) > least[study.channels.index(flag.channel)]:
-            yield f"{flag.channel.value} stays {flag.contrast:+.1f} sigma off at {flag.text}"
+            yield Remainder(f"{flag.channel.value} stays {flag.contrast:+.1f} sigma off at {flag.text}", region=flag)
 
 
 def _striking(
     study: Study, after: Posterior, hypothesis: Hypothesis, least: Array, thresholds: Thresholds
-) -> Iterator[str]:
+) -> Iterator[Remainder]:
     """The significant candidate in the residual."""
     others = [each for each in study.candidates if each.entry.id not in hypothesis.effects]
     chance, strongest = most_striking(settled(after), others, thresholds)
@@ -130,7 +130,8 @@ def _striking(
     np.add.at(squares, after.whitening.rows[:, 1], candidate.column**2)
     channel = study.by_shown(squares).argmax()
     if abs(found.z) > least[channel]:
-        yield f"{candidate.entry.id.value} stands out of the residual by {abs(found.z):.1f} sigma"
+        text = f"{candidate.entry.id.value} stands out of the residual by {abs(found.z):.1f} sigma"
+        yield Remainder(text, effect=candidate.entry.id, score=abs(found.z))
 
 
 def _pulls(posterior: Posterior, hypothesis: Hypothesis) -> float:

@@ -34,7 +34,7 @@ def answer_lines(answer: Mapping[str, Any], most: int = MOST_LINES) -> list[str]
     """The answer of a diagnosis in at most `most` lines of at most `WIDTH` columns.
 
     From a longer one, last sentences are only on the page: of the inspection, of the measurement, the points not used
-    in the fit, of certainty, and of the finding, in this order.
+    in the fit, of certainty, and of the finding, in this order; of the finding its cost goes before its rivals.
     """
     told = list(_paragraphs(answer))
     while len(lines := [line for one in told for line in textwrap.wrap(one.text, WIDTH)]) > most:
@@ -42,28 +42,38 @@ def answer_lines(answer: Mapping[str, Any], most: int = MOST_LINES) -> list[str]
         if not longer:
             return [*lines[: most - 1], f"{lines[most - 1][: WIDTH - len(MORE)]}{MORE}"]
         at = min(longer, key=lambda at: told[at].rank)
-        told[at] = replace(told[at], sentences=told[at].sentences[:-1], cut=MORE)
+        told[at] = told[at].shorter()
     return lines
 
 
 @dataclass(frozen=True)
 class _Paragraph:
-    """Sentences behind a heading, of which the last ones may be cut down to `least`; the lowest rank first."""
+    """Sentences behind a heading, which may be cut down to `least`, the lowest rank first.
+
+    The last ones are cut first, but `spare` ones before them.
+    """
 
     heading: str
     sentences: tuple[str, ...]
     least: int
     rank: int
+    spare: tuple[str, ...] = ()
     cut: str = ""
 
     @property
     def text(self) -> str:
         return f"{self.heading}{' '.join(self.sentences)}{self.cut}" if self.sentences else ""
 
+    def shorter(self) -> _Paragraph:
+        """The paragraph with one sentence less."""
+        at = self.sentences.index(self.spare[-1]) if self.spare else len(self.sentences) - 1
+        kept = (*self.sentences[:at], *self.sentences[at + 1 :])
+        return replace(self, sentences=kept, spare=self.spare[:-1], cut=MORE)
+
 
 def _paragraphs(answer: Mapping[str, Any]) -> Iterator[_Paragraph]:
-    finding = " ".join(filter(None, (answer[key] for key in ("headline", "finding", "cost", "doubt"))))
-    yield _Paragraph("", _sentences(finding), 2, 4)
+    found = tuple(one for key in ("headline", "finding", "cost", "doubt") for one in _sentences(answer[key]))
+    yield _Paragraph("", found, 2, 4, _sentences(answer["cost"]))
     yield _Paragraph("How sure: ", _sentences(answer["certainty"]), 1, 3)
     yield _Paragraph("", _sentences(" ".join(_looks(answer["look"]))), 1, 0)
     yield _Paragraph("Next: ", _sentences(answer["measure"]), 2, 1)

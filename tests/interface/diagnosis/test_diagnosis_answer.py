@@ -258,6 +258,20 @@ def test_what_is_missing_is_told_at_both_ends(study: Study, named: Diagnosis, mo
     )
 
 
+def test_a_difference_that_is_none_is_no_number(
+    study: Study, named: Diagnosis, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Round-off at one end: nothing, not 1e-12 L/min."""
+    added = np.stack([1e-9 * (PRESSURE - PRESSURE.min()) / 60.0 + 1e-19, 0.0 * PRESSURE], axis=1)
+    monkeypatch.setattr(course, "explained_mismatch", lambda *given: ExplainedMismatch(added, added))
+    assert ": nothing at 50 bar, 30 L/min more at 350 bar" in course.course_words(study, named)
+
+
+def test_one_point_of_efficiency_is_one() -> None:
+    one = (Change("efficiency, overall (ISO 4409)", "%", 80.0, 79.0),)
+    assert cost_words(PumpComparison({}, {}, one, "")).startswith("It costs 1 point of efficiency where")
+
+
 def test_levels_far_from_those_of_the_type_plate_are_told() -> None:
     """Displacement beyond its rounding, films and friction beyond two sigma of pumps of one size; else nothing."""
     pump = load_pump("ref90")

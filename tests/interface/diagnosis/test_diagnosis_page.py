@@ -302,6 +302,16 @@ def test_the_terminal_has_few_short_lines(named: Diagnosis) -> None:
     assert all(len(answer_lines(answer, most)) <= most for most in range(4, 12))
 
 
+def test_the_terminal_names_the_rivals_before_the_cost(named: Diagnosis) -> None:
+    """Of "one of two causes" both have their name, however much else there is."""
+    alike = replace(named, effects=tuple(replace(one, equivalent=(E.FILM_HEATING,)) for one in named.effects))
+    answer = asdict(its_answer(alike, f"It costs {'2 L/min of delivery and ' * 9}8 points of efficiency."))
+    looks = [{"name": name, "text": "Look at this part of the pump. " * 40} for name in ("Churning", "Seal drag")]
+    told = " ".join(answer_lines(answer | {"look": looks}, 9))
+    assert "Heating of the oil films in place of elastic opening fits this recording as well." in told
+    assert "It costs" not in told
+
+
 def test_maps_of_one_speed_are_drawn_over_temperature(study: Study, named: Diagnosis, tmp_path: Path) -> None:
     write_diagnosis_files(tmp_path, study, named, its_answer(named))
     rows = read_rows(tmp_path / "residuals.csv")

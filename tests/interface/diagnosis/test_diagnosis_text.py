@@ -14,6 +14,7 @@ from made_diagnosis import Q, agreeing, hypothesis, its_answer
 
 from diagnosis import Diagnosis, NoteKind, statement, write_diagnosis
 from diagnosis.detect.angle_scan import AngleWindow
+from diagnosis.detect.regions import MapRegion
 from diagnosis.detect.time_scan import TimeKind, TimeMark
 from diagnosis.recording.model import DataNote, RecordedChannel
 from diagnosis.report.certainty import certainty
@@ -22,9 +23,10 @@ from diagnosis.report.format import if_words
 from diagnosis.report.json_file import diagnosis_record, read_diagnosis
 from diagnosis.report.measure import NOTHING_AS_LIKELY, NOTHING_ELSE, measure_words, next_point_text
 from diagnosis.report.text import headline, paragraphs, rivals_words
-from diagnosis.verdict.diagnosis import ClaimedEffect, Estimate, VerdictStatus
+from diagnosis.verdict.diagnosis import ClaimedEffect, Estimate, Remainder, VerdictStatus
 from diagnosis.verdict.row_numbers import by_table_rows
 from system import ChannelName, Component, Dimension, EffectId, Gap, InputFaults, Kind
+from system.inputs.units import RPM
 
 E = EffectId
 
@@ -146,6 +148,19 @@ def test_an_incomplete_name_is_likely_and_not_sure(named: Diagnosis) -> None:
     assert "A part of the mismatch remains that they do not explain: the names are likely, not sure." in statement(two)
     beside = tuple(replace(claim, equivalent=(E.UNKNOWN_PHYSICS,)) for claim in one.effects)
     assert "A part of the mismatch remains that it does not explain." in statement(replace(one, effects=beside))
+
+
+def test_what_remains_and_what_to_read_again_is_told(named: Diagnosis) -> None:
+    """The channel and the part of the map where readings stay off, or what the rest looks like."""
+    region = MapRegion(ChannelName.Q_OUT, {}, {"speed": 1200.0 * RPM}, -3.3, "speed below 1200 rpm")
+    off = replace(named, status=VerdictStatus.INCOMPLETE, next_point=None, left=(Remainder("..", region=region),))
+    assert "Delivery flow (Q_out) still reads too low at speeds below 1200 r/min, by 3.3 sigma" in statement(off)
+    assert "differs again: delivery flow (Q_out) at speeds below 1200 r/min." in measure_words(off)
+    alike = replace(off, left=(Remainder("..", effect=E.CHURNING, score=4.2),))
+    assert "What remains looks like churning of oil in the case (4.2 sigma)." in statement(alike)
+    assert "again" not in measure_words(alike)
+    grows = replace(off, left=(Remainder("it would have to grow with pressure by a power more of 0.9 +- 0.4"),))
+    assert "It would have to grow with pressure by a power more of 0.9 +- 0.4." in statement(grows)
 
 
 def test_of_which_pair_a_coefficient_is_is_told(named: Diagnosis) -> None:

@@ -28,10 +28,10 @@ from diagnosis.report.hidden import largest_size
 from diagnosis.study.map_axes import AXES, scaled_axes
 from diagnosis.study.model import Candidate, study_of
 from diagnosis.thresholds import Thresholds
-from diagnosis.verdict.diagnosis import ClaimedEffect, VerdictStatus
+from diagnosis.verdict.diagnosis import ClaimedEffect, Remainder, VerdictStatus
 from diagnosis.verdict.doubt import doubted, no_surer
 from diagnosis.verdict.judge import MISMATCHES, Judgement, judge
-from diagnosis.verdict.residue import residue_notes
+from diagnosis.verdict.residue import remainders
 from diagnosis.verdict.suspects import unexplained
 from diagnosis.verdict.trend import power_errors
 from reynolds import Array, NotConverged
@@ -139,6 +139,10 @@ def _readings(known: Mapping[str, float], scale: float = 0.1) -> dict[Component,
 
 def _coordinates() -> dict[str, Array]:
     return dict(zip(("speed", "pressure", "displacement", "viscosity"), _axes(), strict=True))
+
+
+def _texts(left: tuple[Remainder, ...]) -> tuple[str, ...]:
+    return tuple(one.text for one in left)
 
 
 @dataclass(frozen=True)
@@ -540,7 +544,7 @@ def test_a_suspect_that_nothing_explains_is_put_aside() -> None:
     fits = [replace(refit(study, each, LIMITS), probability=0.5) for each in (hypotheses(study, LIMITS)[0], own)]
     (note,) = unexplained(study, fits, LIMITS)
     assert (note.kind, note.channel, note.points) == (NoteKind.REMOVED, ChannelName.TORQUE, (at,))
-    assert any(f"at point {at + 1}" in text for text in residue_notes(study, *fits, _coordinates(), LIMITS))
+    assert any(f"at point {at + 1}" in text for text in _texts(remainders(study, *fits, _coordinates(), LIMITS)))
     sound = _suspected(_study(1, laws=((CHURNING, 0.2),)), (at,))
     fits = [replace(refit(sound, each, LIMITS), probability=0.5) for each in (hypotheses(sound, LIMITS)[0], own)]
     assert unexplained(sound, fits, LIMITS) == ()
@@ -791,7 +795,7 @@ def _left_by_churning(study: Study) -> tuple[str, ...]:
     """The trace of churning in a recording, in words."""
     own = next(each for each in hypotheses(study, LIMITS) if each.effects == (EffectId.CHURNING,))
     null, best = (refit(study, each, LIMITS) for each in (hypotheses(study, LIMITS)[0], own))
-    return residue_notes(study, null, best, _coordinates(), LIMITS)
+    return _texts(remainders(study, null, best, _coordinates(), LIMITS))
 
 
 def test_tails_of_the_noise_leave_nothing_and_breadth_does() -> None:
