@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, make_dataclass, replace
 from pathlib import Path
+from shlex import quote
 from typing import Annotated, Any
 
 from diagnosis.recording.channel_form import (
@@ -170,6 +171,8 @@ def read_form(tables: Mapping[str, Any], reading: Reading, data: Path | None) ->
         if data is None and not getattr(getattr(stated, name), "file", "stated with another fault"):
             expected = "the path of the table, from the folder of the recording"
             reading.fault(f"{name}.file", "missing", expected)
+        if data is not None:
+            _hold_table(name, stated, reading, data)
     absent = ("series.time", "missing")
     reading.faults[:] = [
         replace(one, nearest=TIME) if (one.path, one.found) == absent else one for one in reading.faults
@@ -182,6 +185,17 @@ def read_form(tables: Mapping[str, Any], reading: Reading, data: Path | None) ->
     channels = tuple(channel_form(ChannelName.named(key), one, reference) for key, one in _stated(stated.channel))
     traces = None if stated.traces is None else _trace_form(stated.traces, folder, reference)
     return RecordingForm(stated.title or folder.name, stated, own, source, channels, traces)
+
+
+def _hold_table(name: str, stated: object, reading: Reading, data: Path) -> None:
+    """Add the fault of a recording that names other tables than the one asked for, `data`, which lies beside it."""
+    own, traces = (getattr(getattr(stated, part, None), "file", "") for part in (name, "traces"))
+    if not own or data.resolve() in [(reading.folder / file).resolve() for file in (own, traces) if file]:
+        return
+    expected = f"'{data.name}', the table asked for; or no file, for any table beside the recording.toml"
+    table, toml = quote(str(data)), quote(str(data.with_suffix(".toml")))
+    near = f"a recording of its own: swashfilm new recording {table} -o {toml}"
+    reading.fault(f"{name}.file", repr(own), expected, near)
 
 
 def recording_schema() -> Schema:

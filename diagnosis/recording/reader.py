@@ -22,6 +22,7 @@ from diagnosis.recording.model import RecordedChannel, Recording, SteadyTable
 from diagnosis.recording.replicates import repeatability, set_points
 from diagnosis.recording.series.points import SeriesPoints, series_points
 from diagnosis.recording.tables.columns import ColumnReader, rising
+from diagnosis.recording.tables.read import ENDINGS
 from diagnosis.recording.tables.table import TableColumns, TableFault
 from diagnosis.recording.traces import ReadTraces, read_traces
 from reynolds.numerics.arrays import Array
@@ -46,6 +47,9 @@ def read_recording(path: Path | str) -> Recording:
         expected = f"a recording's folder, its {FILE}, or a table beside one"
         raise InputFaults(str(path), [Fault("file", "no such file", expected, nearest_path(path))])
     stated, data = _places(path)
+    if data is None and not stated.exists():
+        expected = f"a {FILE} in the recording's folder"
+        raise InputFaults(str(path), [Fault("file", f"no {FILE}", expected, _first_step(path))])
     if data is not None and not stated.exists():
         expected = f"a {FILE} beside the table"
         near = f"swashfilm new recording {quote(str(path))}"
@@ -69,6 +73,14 @@ def recording_of_tables(label: str, tables: Mapping[str, Any], folder: Path, dat
     if recording is None or reading.faults:
         raise InputFaults(label, reading.faults)
     return recording
+
+
+def _first_step(folder: Path) -> str:
+    """What makes a folder a recording: the command for its first table, or a recording of another name in it."""
+    files = sorted(one for one in folder.iterdir() if one.is_file())
+    own = next((str(one) for one in files if one.suffix.lower() == ".toml"), "")
+    table = next((str(one) for one in files if one.suffix.lower() in ENDINGS), "")
+    return own or (f"swashfilm new recording {quote(table)}" if table else "")
 
 
 def _places(path: Path) -> tuple[Path, Path | None]:

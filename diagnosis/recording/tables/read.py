@@ -22,6 +22,7 @@ _READERS: Mapping[str, Callable[[TableSource], TableColumns]] = {
     **dict.fromkeys((".mf4", ".mdf"), read_mdf),
 }
 """Readers by file ending."""
+ENDINGS = tuple(_READERS)
 
 
 def read_columns(source: TableSource) -> TableColumns:

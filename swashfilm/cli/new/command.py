@@ -24,7 +24,11 @@ _OF_PUMP = {
     "--speed": ("2600rpm", "rated speed"),
     "--pressure": ("350bar", "rated pressure, gauge"),
 }
-_OF = {"pump": (*_OF_PUMP, "--circuit", "--output"), "recording": ("--circuit", "--part"), "film": ("--output",)}
+_OF = {
+    "pump": (*_OF_PUMP, "--circuit", "--output"),
+    "recording": ("--circuit", "--part", "--output"),
+    "film": ("--output",),
+}
 """Options of each kind of file."""
 
 
@@ -77,7 +81,8 @@ def _found(options: argparse.Namespace, path: Path, faults: list[Fault], asks: b
 def _place(options: argparse.Namespace) -> tuple[Path, str]:
     """Return the place of the file, and the argument that states it."""
     if options.kind == "recording":
-        return Path(options.of or ".").parent / "recording.toml", "TABLE"
+        own = options.output is not None
+        return options.output or Path(options.of or ".").parent / "recording.toml", "--output" if own else "TABLE"
     usual = "pump" if options.kind == "pump" else options.of or "film"
     return options.output or Path(f"{usual}.toml"), "--output"
 
@@ -110,7 +115,7 @@ def _add_options(command: argparse.ArgumentParser) -> None:
         command.add_argument(option, metavar=f"'{example}'" if " " in example else example, help=f"pump: {words}")
     command.add_argument("--circuit", metavar="{open,closed}", help="pump, recording: the circuit")
     command.add_argument("--part", metavar="NAME", help="recording: sheet, group or variable of a table with several")
-    what = "pump, film: the file (default pump.toml, KIND.toml); a recording's is recording.toml beside its table"
+    what = "the file (default pump.toml, KIND.toml); a recording's lies beside its table (default recording.toml)"
     command.add_argument("-o", "--output", type=Path, metavar="FILE.toml", help=what)
 
 

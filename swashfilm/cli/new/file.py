@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from shlex import quote
 
 from swashfilm.console.schemas import write_new
 from system.inputs.faults import Fault, InputFaults
@@ -40,5 +41,6 @@ def place_faults(path: Path, option: str) -> list[Fault]:
     if path.exists():
         numbered = (path.with_stem(f"{path.stem}-{k}") for k in range(2, 1000))
         free = next((str(one) for one in numbered if not one.exists()), "")
-        return [Fault(option, f"'{path}', which exists", "a new file: none is overwritten", free)]
+        near = free if option == "--output" or not free else f"-o {quote(free)}"
+        return [Fault(option, f"'{path}', which exists", "a new file: none is overwritten", near)]
     return []

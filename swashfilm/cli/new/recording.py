@@ -10,7 +10,7 @@ from shlex import quote
 
 from diagnosis.recording.guess.written import GuessedRecording, guessed_recording
 from diagnosis.recording.model import Circuit
-from diagnosis.recording.reader import recording_of_tables
+from diagnosis.recording.reader import FILE, recording_of_tables
 from diagnosis.recording.tables.read import read_columns
 from diagnosis.recording.tables.table import TableFault, TableSource
 from reynolds.numerics.files import is_file
@@ -31,24 +31,31 @@ _ASKS_PART = re.compile(r"\b(sheet|group|variable) = ")
 def new_recording(
     table: str | None, part: str | None, circuit: str | None, path: Path, faults: list[Fault]
 ) -> NewFile | None:
-    """Return the recording of a table, which lies beside it; None with faults added."""
+    """Return the recording of a table, which lies beside it; None with faults added.
+
+    Of several tables in a folder each may have a recording of its own name.
+    """
     known = [one.value for one in Circuit]
     if circuit is not None and circuit not in known:
         near = nearest_choice(circuit, known)
         faults.append(Fault("--circuit", repr(circuit), f"one of {', '.join(known)}", near))
     source = _source(table, part, faults)
+    if source is not None and path.parent.resolve() != source.path.parent.resolve():
+        near = str(source.path.parent / path.name)
+        faults.append(Fault("--output", f"'{path}'", "a file beside the table, which it names", near))
     if source is None or faults:
         return None
     try:
         guess = guessed_recording(source, read_columns(source), None if circuit is None else Circuit(circuit))
     except TableFault as reason:
-        mend = "--part NAME" if part is None and _ASKS_PART.search(reason.expected) else reason.nearest
+        asks = part is None and _ASKS_PART.search(reason.expected)
+        mend = f"--part {quote(reason.nearest.split(', ')[0] or 'NAME')}" if asks else reason.nearest
         faults.append(Fault("TABLE", reason.found, reason.expected, mend))
         return None
     faults += _faults(guess)
     if faults:
         return None
-    word = quote(str(source.path))
+    word = quote(str(source.path if path.name == FILE else path))
     told = (*guess.told, *_doubts(guess, path), f"next: swashfilm check {word}")
     return NewFile(path, "recording", guess.text, (*told, f"then: swashfilm diagnose PUMP {word}"))
 

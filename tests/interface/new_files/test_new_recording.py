@@ -7,6 +7,7 @@ import numpy as np
 import openpyxl
 import pytest
 from jsonschema import Draft202012Validator
+from scipy.io import savemat
 
 import swashfilm as sf
 from diagnosis import read_recording
@@ -221,6 +222,55 @@ def test_a_workbook_of_several_sheets_needs_its_name(tmp_path):
     assert len(read_recording(table).steady.values) == 112
     (tmp_path / "recording.toml").unlink()
     assert main(["new", "recording", "--part", "Karte", str(table)]) == 0
+
+
+def test_a_struct_of_a_mat_file_is_the_part_that_is_asked_for(tmp_path):
+    savemat(tmp_path / "run.mat", {"data": {"n": np.linspace(1000.0, 2000.0, 9), "Q": np.linspace(50.0, 90.0, 9)}})
+    with pytest.raises(sf.InputFaults) as refused:
+        sf.new("recording", tmp_path / "run.mat")
+    assert refused.value.faults[0].nearest == "part data"
+    assert 'variable = "data"' in sf.new("recording", tmp_path / "run.mat", part="data").read_text("utf-8")
+
+
+def _campaign(folder):
+    """Two tables of a campaign, the first with its recording.toml."""
+    for day, pressure in (("day1", 100), ("day2", 200)):
+        rows = [f"{pressure + k};1500;{60 - k / 10}" for k in range(12)]
+        (folder / f"{day}.csv").write_text("\n".join(["p_out [bar];n [rpm];Q_out [l/min]", *rows]), "utf-8")
+    return sf.new("recording", folder / "day1.csv")
+
+
+def test_a_table_beside_the_recording_of_another_is_not_read_as_that(tmp_path, capsys):
+    """The table asked for is the one that is read, or none is: never silently another one."""
+    stated = _campaign(tmp_path)
+    with pytest.raises(sf.InputFaults) as refused:
+        read_recording(tmp_path / "day2.csv")
+    (fault,) = refused.value.faults
+    assert (fault.path, fault.found) == ("steady.file", "'day1.csv'")
+    assert "'day2.csv'" in fault.expected
+    command = fault.nearest.partition("swashfilm ")[2].split()
+    assert main(command) == 0
+    assert f"swashfilm check {tmp_path / 'day2.toml'}" in capsys.readouterr().out
+    assert read_recording(tmp_path / "day2.toml").steady.column(ChannelName.P_OUT)[0] == pytest.approx(200e5)
+    stated.write_text(stated.read_text("utf-8").replace('file = "day1.csv"\n', ""), "utf-8")
+    for day, pressure in (("day1", 100e5), ("day2", 200e5)):
+        assert read_recording(tmp_path / f"{day}.csv").steady.column(ChannelName.P_OUT)[0] == pytest.approx(pressure)
+
+
+def test_a_recording_lies_beside_its_table(tmp_path, capsys):
+    _campaign(tmp_path)
+    (tmp_path / "other").mkdir()
+    assert main(["new", "recording", str(tmp_path / "day2.csv"), "-o", str(tmp_path / "other" / "a.toml")]) == 2
+    assert "beside the table" in capsys.readouterr().err
+    assert main(["new", "recording", str(tmp_path / "day2.csv")]) == 2
+    assert f"-o {tmp_path / 'recording-2.toml'}" in capsys.readouterr().err
+
+
+def test_a_folder_without_a_recording_has_its_first_step(tmp_path):
+    (tmp_path / "map.csv").write_text("p_out [bar];Q_out [l/min]\n1;2\n", "utf-8")
+    with pytest.raises(sf.InputFaults) as refused:
+        read_recording(tmp_path)
+    assert refused.value.faults[0].nearest == f"swashfilm new recording {tmp_path / 'map.csv'}"
 
 
 def test_faults_all_at_once_and_nothing_is_overwritten(tmp_path, capsys):
