@@ -27,8 +27,12 @@ _INPUTS = {
     "speed": "shaft speed", "p_out": "delivery pressure", "p_in": "inlet pressure", "p_case": "case pressure",
     "T_in": "inlet temperature", "T_case": "case temperature",
 }  # fmt: skip
-_FACTORS = {"viscosity": "viscosity factor", "displacement": "displacement factor"}
-"""Parameters that multiply a value of the pump file."""
+_NAMES = {
+    "viscosity": "viscosity factor", "displacement": "displacement factor",
+    "mixed_friction.hersey_scale": "Hersey scale of mixed friction",
+    "mixed_friction.exponent": "exponent of mixed friction",
+}  # fmt: skip
+"""Names of parameters that are no quantity of one part; factors multiply a value of the pump file."""
 
 
 def parameter_words(name: str) -> str:
@@ -41,7 +45,7 @@ def parameter_words(name: str) -> str:
     if channel is not None and rest:
         words = CHANNELS.get(channel) or _INPUTS.get(first)
         return f"{rest.replace('_', ' ')} of {f'{words} ({first})' if words else first.replace('_', ' ')}"
-    return _FACTORS.get(name) or name.replace("_", " ").replace(".", ", ")
+    return _NAMES.get(name) or name.replace("_", " ").replace(".", ", ")
 
 
 def is_sensor(row: Row) -> bool:

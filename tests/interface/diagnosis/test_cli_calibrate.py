@@ -21,6 +21,7 @@ from reynolds import NotConverged
 from swashfilm.__main__ import main
 from swashfilm.runs.calibrate.answer import calibrate_answer
 from swashfilm.runs.calibrate.page import parameter_rows
+from swashfilm.runs.calibrate.words import parameter_words
 from system import SIMULATED, BenchPoints, EffectId, Extension, LumpedBench, entry_of, load_pump
 from system.bench.calibration.equation_21 import paper_priors
 
@@ -42,6 +43,19 @@ torque = { column = "M", unit = "N m", sigma = 0.3 }
 PLANTED = {"friction.slipper_swash_plate": 0.009, "friction.piston_cylinder": 0.022}
 WIDE = ("--set", "tolerance.friction=0.66")
 BOUNDARY = {"mixed_friction.slipper": 0.05}
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("mixed_friction.hersey_scale", "Hersey scale of mixed friction"),
+        ("mixed_friction.exponent", "exponent of mixed friction"),
+        ("mixed_friction.piston", "mixed friction, piston"),
+        ("displacement", "displacement factor"),
+    ],
+)
+def test_a_parameter_of_no_part_has_a_name_of_its_own(name: str, words: str) -> None:
+    assert parameter_words(name) == words
 
 
 def _made(folder: Path, law: Extension | None = None) -> Path:
