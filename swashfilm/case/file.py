@@ -23,7 +23,7 @@ from swashfilm.case.statement import FilmStatement
 from swashfilm.case.tables.boundary import check_boundaries, read_boundaries
 from swashfilm.case.tables.constants import read_constants
 from swashfilm.case.tables.elastic import read_elastic
-from swashfilm.case.tables.film import FilmSection, check_film
+from swashfilm.case.tables.film import FilmSection, Geometry, check_film
 from swashfilm.case.tables.oil import FilmOilSection, read_oil
 from swashfilm.case.tables.roughness import read_roughness
 from swashfilm.case.tables.thermal import read_thermal
@@ -45,6 +45,11 @@ class FilmCase:
     resolved: str
     stated: FilmStatement
     problem: FilmProblem
+
+    @property
+    def geometry(self) -> Geometry:
+        """Shape of the faces."""
+        return self.stated.film.geometry
 
     def refined(self) -> FilmCase:
         """Return the case on a mesh twice finer, with half its time step.

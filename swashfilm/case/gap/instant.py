@@ -14,6 +14,7 @@ from reynolds.numerics.arrays import Array
 from swashfilm.case.gap.physics import SwitchesSection, choices
 from swashfilm.case.gap.position import LOADS, POSITIONS, Load, Position, pose_of, stated_position, touching, with_arm
 from swashfilm.case.gap.pump import CasePump, own_rows, read_case_pump
+from swashfilm.case.tables.film import Geometry
 from system.description.assumptions import Assumption
 from system.description.gap import Gap
 from system.films.cycle import GapPhysics
@@ -67,6 +68,11 @@ class GapCase:
     load: Load | None
     assumptions: tuple[Assumption, ...]
     finer: int = 1
+
+    @property
+    def geometry(self) -> Geometry:
+        """Shape of the faces: of a piston the cylinder around which its film is unrolled."""
+        return Geometry.CYLINDER if self.gap is Gap.PISTON else Geometry.PLANE
 
     def refined(self) -> GapCase:
         """Return the same gap on a mesh twice finer."""

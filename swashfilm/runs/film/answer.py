@@ -12,7 +12,7 @@ from system.inputs.shown import quantity_text, round_off
 from system.inputs.units import Dimension
 
 DIGITS = 4
-LOADS = ("bearing_load_N", "carried_load_N", "load_N")
+LOADS = ("carried_load_N", "bearing_load_N", "load_N")
 """Keys of a film's load; the first that a film has is its supported load."""
 LEAST_SHARE = 1e-4
 """Share of area or load below which cavities and contact are not mentioned."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -37,7 +38,6 @@ def film_summary(study: FilmStudy) -> dict[str, Any]:
     solution, integrals = study.solution, study.loads
     around = study.geometry is Geometry.CYLINDER
     bearing = _bearing(solution) if around else {}
-    supported = bearing.get("bearing_load_N", integrals.load + integrals.contact_load)
     return {
         **headed("film"),
         "name": study.name,
@@ -52,7 +52,7 @@ def film_summary(study: FilmStudy) -> dict[str, Any]:
         "friction_torque_moving_Nm": friction_torque(solution, integrals, study.geometry),
         "dissipation_W": integrals.dissipation,
         **bearing,
-        **_stribeck(solution, supported),
+        **_stribeck(study, bearing),
         "cavitated_area_fraction": integrals.cavitated_area_fraction,
         "film_fraction_min": float(solution.film_fraction.min()),
         "cavity_flow_m3_per_s": integrals.cavity_flow + 0.0,  # no negative zero
@@ -89,30 +89,48 @@ def _bearing(solution: FilmSolution) -> dict[str, float]:
     }
 
 
-def _stribeck(solution: FilmSolution, supported: float) -> dict[str, float | None]:
+def _stribeck(study: FilmStudy, bearing: Mapping[str, float]) -> dict[str, float | None]:
     """Return friction coefficient and Hersey number mu U/p_mean (m); none without sliding or load.
 
     The friction force is the power of the walls over their mean sliding speed, also for rotating films; mu and U
-    are means over the film, p_mean is the load `supported` (N) over its area.
+    are means over the part of the film whose walls slide (no port under a web), p_mean is the supported load over its
+    area.
     """
-    film, area = solution.film, solution.problem.space.area
-    fields = point_fields(solution)
+    solution, supported = study.solution, _supported(study, bearing)
+    film = solution.film
     (u1, v1), (u2, v2) = film.velocity_moving, film.velocity_fixed
+    sliding = np.hypot(u1 - u2, v1 - v2)
+    area = solution.problem.space.area * (sliding > 0.0)
     total = float(area.sum())
-    speed = float(np.sum(np.hypot(u1 - u2, v1 - v2) * area)) / total
-    if speed == 0.0 or not supported > 0.0:
+    if total == 0.0 or not supported > 0.0:
         return {"friction_coefficient": None, "hersey_number_m": None}
-    power = sum(
-        float(np.sum(shear * velocity * area))
-        for shear, velocity in zip((*fields.shear_moving, *fields.shear_fixed), (u1, v1, u2, v2), strict=True)
-    )
+    speed = float(np.sum(sliding * area)) / total
+    power = abs(_wall_power(solution) if study.gap is None else study.gap.film.friction_power)
+    if power > LARGEST_COEFFICIENT * speed * supported:
+        return {"friction_coefficient": None, "hersey_number_m": None}
     viscosity = float(np.sum(film.viscosity * area)) / total
-    if abs(power) > LARGEST_COEFFICIENT * speed * supported:
-        return {"friction_coefficient": None, "hersey_number_m": None}
     return {
-        "friction_coefficient": abs(power) / (speed * supported),
+        "friction_coefficient": power / (speed * supported),
         "hersey_number_m": viscosity * speed * total / supported,
     }
+
+
+def _supported(study: FilmStudy, bearing: Mapping[str, float]) -> float:
+    """Return the load (N) on film and contact: of a gap with its pockets, of a cylinder the vector."""
+    if study.gap is not None:
+        return study.gap.film.carried_load
+    return bearing.get("bearing_load_N", study.loads.load + study.loads.contact_load)
+
+
+def _wall_power(solution: FilmSolution) -> float:
+    """Return the power (W) of the film on its walls, negative where they drive it."""
+    film, fields = solution.film, point_fields(solution)
+    return sum(
+        float(np.sum(shear * velocity * solution.problem.space.area))
+        for shear, velocity in zip(
+            (*fields.shear_moving, *fields.shear_fixed), (*film.velocity_moving, *film.velocity_fixed), strict=True
+        )
+    )
 
 
 def film_dataset(study: FilmStudy) -> xarray.Dataset:

@@ -75,8 +75,7 @@ def _known(case: FilmCase | GapCase) -> list[str]:
 
 
 def _outputs(case: FilmCase | GapCase, problem: FilmProblem) -> dict[str, Output]:
-    around = isinstance(case, FilmCase) and case.stated.film.geometry is Geometry.CYLINDER
-    return output_names(problem, around_cylinder=around)
+    return output_names(problem, around_cylinder=case.geometry is Geometry.CYLINDER)
 
 
 def _posed(case: FilmCase | GapCase) -> FilmProblem:

@@ -49,7 +49,8 @@ def solve_case(case: FilmCase | GapCase, report: Report = silent) -> FilmStudy:
     began = time.perf_counter()
     if isinstance(case, GapCase):
         gap = solve_gap(case)
-        return FilmStudy(case.name, gap.film.solution, gap.film.loads, gap, time.perf_counter() - began)
+        seconds = time.perf_counter() - began
+        return FilmStudy(case.name, gap.film.solution, gap.film.loads, gap, seconds, geometry=case.geometry)
     heat: FilmTemperature | None = None
     history: tuple[Moment, ...] = ()
     loaded: LoadedFilm | None = None
@@ -65,5 +66,4 @@ def solve_case(case: FilmCase | GapCase, report: Report = silent) -> FilmStudy:
         found = oil_solver(case.stated, case.problem.space).solve(case.problem)
         solution, heat = film_of(found), heat_of(found)
     seconds = time.perf_counter() - began
-    geometry = case.stated.film.geometry
-    return FilmStudy(case.name, solution, loads(solution), None, seconds, heat, history, loaded, geometry=geometry)
+    return FilmStudy(case.name, solution, loads(solution), None, seconds, heat, history, loaded, geometry=case.geometry)
