@@ -18,6 +18,7 @@ SETTING_SHARE = 5e-4  # of full displacement: assumed accuracy of a set swash an
 ENCODER = math.radians(0.3)
 FEWEST_READINGS = 20  # different readings from which a step is derived
 FEWEST_COARSE = 5  # the same of a display that repeats show to be coarse
+USUAL, FAR = 0.9, 10.0  # quantile of the magnitudes, and times that: readings beyond are codes for no reading
 STILL = 0.01  # of one sigma: repeats that scatter by less are those of a coarse display, or of no meter
 
 # Limits of the classes A, B, C of ISO 4409 as they are commonly quoted. The standard's own table was not available for
@@ -35,8 +36,9 @@ def recorded_channel(form: ChannelForm, readings: Array, found: float | None) ->
     found: repeatability from the data (replicates, window scatter), or None. Calibration that is not stated is
     that of the accuracy class, else gain = max(sigma_relative, 0.1 %) and zero = sigma, or class A where sigma is
     not stated either (scatter is no measure of calibration); a displacement ratio of sigma 0 is a setting, good to
-    0.05 % of full. `assumed` names every assumed field.
+    0.05 % of full. `assumed` names every assumed field. A code for no reading (1e38, 9999) changes none of it.
     """
+    readings = _without_codes(readings)
     assumed = []
     sigma, relative = form.repeatability
     if form.sigma is None and form.sigma_relative is None:
@@ -66,6 +68,14 @@ def recorded_channel(form: ChannelForm, readings: Array, found: float | None) ->
         zero_sigma=usual_zero if zero is None else zero,
         assumed=tuple(assumed),
     )
+
+
+def _without_codes(readings: Array) -> Array:
+    """Readings of a channel without those far beyond all usual ones."""
+    size = np.abs(readings[np.isfinite(readings)])
+    usual = float(np.quantile(size, USUAL)) if size.size else 0.0
+    with np.errstate(invalid="ignore"):
+        return np.where(np.abs(readings) > FAR * usual, np.nan, readings) if usual > 0.0 else readings
 
 
 def _shown_step(readings: Array, form: ChannelForm, found: float | None) -> float:

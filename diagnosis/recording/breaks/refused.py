@@ -13,8 +13,10 @@ from diagnosis.recording.series.standstill import all_at_rest, at_rest
 from diagnosis.recording.tables.columns import ColumnReader
 from diagnosis.recording.tables.table import TableColumns
 from reynolds.numerics.arrays import Array
+from system.inputs.channels import ChannelName
 
 SPLIT = "a recording for each pump: split the table there"
+STROKE = "the displacement_ratio as a channel, where the stroke was set anew"
 
 
 def refuse_breaks(
@@ -36,4 +38,5 @@ def refuse_breaks(
     if not changes:
         at_work = np.where(at_rest(readings, names)[:, None], np.nan, readings)
         for jump in pump_changes(at_work, names):
-            reader.fault(f"{section}.file", f"a jump of {jump}: two pumps or two settings?", SPLIT)
+            expected = SPLIT if ChannelName.DISPLACEMENT_RATIO in names else f"{SPLIT}; or {STROKE}"
+            reader.fault(f"{section}.file", f"a jump of {jump}: two pumps or two settings?", expected)

@@ -50,11 +50,14 @@ class GuessedChannel:
 
 @dataclass(frozen=True)
 class GuessedColumns:
-    """Channels of a table, its column of time with its unit, if any, and the other columns."""
+    """Channels of a table, its column of time with its unit, if any, and the other columns; angles: of the swash plate,
+    among the others.
+    """
 
     channels: tuple[GuessedChannel, ...]
     time: tuple[str, str] | None
     others: tuple[str, ...]
+    angles: tuple[str, ...] = ()
 
 
 def guessed_columns(table: TableColumns) -> GuessedColumns:
@@ -70,7 +73,8 @@ def guessed_columns(table: TableColumns) -> GuessedColumns:
     used = {head.column for head, _ in taken.values()} | ({time.column} if time else set())
     channels = _with_units(taken, table.values)
     others = tuple(name for name in table.values if name not in used)
-    return GuessedColumns(channels, None if time is None else (time.column, _time_unit(time)), others)
+    angles = tuple(head.column for head in heads if _is_angle(head))
+    return GuessedColumns(channels, None if time is None else (time.column, _time_unit(time)), others, angles)
 
 
 def _told(head: Head) -> ChannelName | None:
@@ -79,11 +83,16 @@ def _told(head: Head) -> ChannelName | None:
         return None
     if head.quantity is Quantity.POWER:
         return ChannelName.ELECTRIC_POWER if head.electric else None
-    if head.quantity is Quantity.RATIO and head.unknown:
-        return None  # an angle or a volume, whose share of full stroke its size does not tell
+    if _is_angle(head):
+        return None
     if head.quantity in _SINGLE:
         return _SINGLE[head.quantity]
     return _PLACED[head.quantity].get(head.place) if head.quantity in _PLACED and head.place else None
+
+
+def _is_angle(head: Head) -> bool:
+    """True for an angle or a volume of the stroke, whose share of full stroke its size does not tell."""
+    return head.quantity is Quantity.RATIO and bool(head.unknown)
 
 
 def _by_size(

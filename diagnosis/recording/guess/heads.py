@@ -73,6 +73,8 @@ class Head:
 _BRACKETS = re.compile(r"[\[(<{].*$")
 _REFERENCE_BEHIND = re.compile(r"(bar|psi|mpa|kpa|pa)\s*\((abs|a|gauge|g|rel)\)[\])]?$", re.IGNORECASE)
 _NUMBERED = re.compile(r".*:\d+")  # a column of a matrix
+_OVER = re.compile(r"(\w{1,8}) ?/ ?([^ ]{1,8})")
+"""A symbol over its unit, as in "p/bar"."""
 _UMLAUTS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss"})
 _ACCENTS = str.maketrans("éèêàâîôûç", "eeeaaiouc")
 _INDICES = "|".join(word for place in Place for word in place.value.split() if word.isascii())
@@ -95,14 +97,27 @@ def read_head(column: str, in_table: str = "") -> Head:
         column_unit, bare = ending, column[: told.start()].strip(" _[(")
     else:
         column_unit, bare = None, _BRACKETS.sub("", column).strip()
-    words = [word.lower() for word in _SPLIT.findall(bare.translate(_UMLAUTS).translate(_ACCENTS))]
+    words = _words(bare)
     unit = column_unit or (read_unit(in_table) if in_table else None)
     spoken = _quantity(bare, words, unit)
     if unit is None:
         spoken, unit = _with_ending(bare, words, spoken)
+        words = words if unit is None else _words(_parted(bare)[0])  # the l of l/min is no place
     place = next((one for one in Place if _among(one.value.split(), words)), None)
     electric = "el" in words or "pel" in words or any(part in word for part in _ELECTRIC for word in words)
     return Head(column, spoken, place, unit, electric, "" if unit else in_table)
+
+
+def _words(text: str) -> list[str]:
+    return [word.lower() for word in _SPLIT.findall(text.translate(_UMLAUTS).translate(_ACCENTS))]
+
+
+def _parted(bare: str) -> tuple[str, str]:
+    """Return a head without its last part, and that part: behind a blank, a low line, or the stroke of "p/bar"."""
+    if (found := _OVER.fullmatch(bare)) and read_unit(found[2]) and not read_unit(bare):
+        return found[1], found[2]
+    before, _, ending = bare.replace(" ", "_").rpartition("_")
+    return before, ending
 
 
 def _quantity(bare: str, words: list[str], unit: ReadUnit | None) -> Quantity | None:
@@ -120,7 +135,7 @@ def _quantity(bare: str, words: list[str], unit: ReadUnit | None) -> Quantity | 
 
 def _with_ending(bare: str, words: list[str], spoken: Quantity | None) -> tuple[Quantity | None, ReadUnit | None]:
     """Return quantity and unit of a head that ends with a unit; the unit None where it does not fit the words."""
-    before, _, ending = bare.replace(" ", "_").rpartition("_")
+    before, ending = _parted(bare)
     unit = read_unit(ending) if before and ending else None
     if unit is None or (unit.dimension is None and ending not in ("%", "pct")):
         return spoken, None

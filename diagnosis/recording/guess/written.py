@@ -24,6 +24,7 @@ RISING = 0.95
 """Share of the steps of a time that rise."""
 CHARGED = 5e5
 """Pa gauge: inlet pressure from which a circuit counts as closed."""
+NO_SHARE = "no share of full stroke: a column of tan(angle) / tan(largest angle) is the displacement_ratio"
 AMBIENT = (7e4, 1.3e5)
 """Pa: inlet pressure of an open circuit that is absolute where nothing is stated."""
 SIGMA_SHARE = 0.002
@@ -61,7 +62,7 @@ def guessed_recording(source: TableSource, table: TableColumns, circuit: Circuit
         *_section(source, columns, table, series),
         *_channel_rows(columns, table.values, reference, series),
         *(f"# missing: {line}" for line in absent),
-        *(f"# not used: column {name!r}" for name in columns.others),
+        *(f"# not used: column {name!r}{f', {NO_SHARE}' if name in columns.angles else ''}" for name in columns.others),
     ]
     return GuessedRecording("\n".join(rows) + "\n", columns.channels, _told(columns, absent))
 
@@ -177,5 +178,7 @@ def _told(columns: GuessedColumns, absent: Sequence[str]) -> tuple[str, ...]:
         f"  {one.name.value}: column {one.column!r} in {one.unit}" + "".join(f"; {words}" for words in one.doubts)
         for one in columns.channels
     ]
-    unused = [f"  not used: {', '.join(map(repr, columns.others))}"] if columns.others else []
+    plain = [name for name in columns.others if name not in columns.angles]
+    unused = [f"  not used: {', '.join(map(repr, plain))}"] if plain else []
+    unused += [f"  not used: {name!r}, {NO_SHARE}" for name in columns.angles]
     return (*shown, *unused, *(f"  missing: {line}" for line in absent))

@@ -173,6 +173,11 @@ def test_a_time_series_is_taken_as_one(tmp_path):
         ("Tcase [DEG F]", "T_case", "degF"),
         ("Qcase [l/min]", "Q_case", "l/min"),
         ("pOut [bar]", "p_out", "bar"),
+        ("Outlet flow, L/min", "Q_out", "L/min"),
+        ("Förderstrom l/min", "Q_out", "l/min"),
+        ("p_HD/bar", "p_out", "bar"),
+        ("Q/l/min", "Q_out", "l/min"),
+        ("n/min-1", "speed", "min-1"),
     ],
 )  # fmt: skip
 def test_heads_as_benches_write_them(head, channel, unit):
@@ -196,7 +201,8 @@ def test_a_unit_that_is_not_known_is_told_beside_the_guess(unit):
 @pytest.mark.parametrize("unit", ["deg", "°", "cm3"])
 def test_an_angle_of_the_swash_plate_is_no_share_of_full_stroke(unit):
     found = _guessed(f"Schwenkwinkel [{unit}]", unit, (4.0, 16.2))
-    assert (found.channels, found.others) == ((), (f"Schwenkwinkel [{unit}]",))
+    head = f"Schwenkwinkel [{unit}]"
+    assert (found.channels, found.others, found.angles) == ((), (head,), (head,))
 
 
 @pytest.mark.parametrize(("inlet", "taken"), [(1.01, "absolute"), (0.85, "absolute"), (0.1, "gauge"), (25.0, "gauge")])

@@ -125,6 +125,24 @@ def test_quantum_is_seen_in_the_readings(tmp_path):
     assert channel.quantum == pytest.approx(0.25 / 60e3)
 
 
+@pytest.mark.parametrize("code", [1e38, 9999.0, -9999.0])
+def test_a_code_for_no_reading_changes_neither_step_nor_calibration(tmp_path, code):
+    """A code in one row once stretched the zero of its meter by a hundred, and hid a fault there."""
+    rng = np.random.default_rng(2)
+    rows = [[1000 + 10 * k, 100 + 5 * k, 50 + 0.1 * k, round(60 + k + rng.normal(0, 0.1), 3)] for k in range(30)]
+
+    def channel(number):
+        rows[12][3] = number
+        table = "k,n,p,T,Q\n" + "\n".join(",".join(map(str, [k, *row])) for k, row in enumerate(rows))
+        return read_recording(_written(tmp_path, form, table)).channel(ChannelName.Q_OUT)
+
+    form = (HEAD + STEADY + CHANNELS).replace("sigma_relative = 0.0006 }", 'accuracy_class = "A" }')
+    sound, coded = channel(72.001), channel(code)
+    assert (coded.quantum, coded.gain_sigma) == (sound.quantum, sound.gain_sigma)
+    assert coded.zero_sigma == pytest.approx(sound.zero_sigma)
+    assert coded.quantum == pytest.approx(0.001 / 60e3)
+
+
 def test_round_levels_of_a_setting_are_no_steps_of_a_reading(tmp_path):
     rows = [
         f"{k},{1000 + 7.3 * k:.1f},{100 + 1.01 * k:.2f},50,{60 + 0.013 * k:.3f},{0.2 + 0.01 * k:.2f}" for k in range(60)
