@@ -18,6 +18,8 @@ from system.effects.effect import EffectId, Kind
 ENOUGH = 10
 """Trials of a band of probability below which all bands of the answer count together."""
 GRADES = ((0.9, "very sure"), (0.75, "fairly sure"), (0.5, "likely"))
+LIKELY = GRADES[-1][0]
+"""Probability from which an answer is likelier than not."""
 SURE = ("very sure", "fairly sure")
 """Words of certainty of reliable answers."""
 

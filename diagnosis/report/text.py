@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from diagnosis.detect.time_scan import TimeKind
 from diagnosis.explain.ranked import Explanation
 from diagnosis.recording.units import difference, difference_unit, reading
-from diagnosis.report.certainty import stated_probability
+from diagnosis.report.certainty import LIKELY, stated_probability
 from diagnosis.report.explanations import RIVALS, explained_by, explanation_words, named_apart, rivals
 from diagnosis.report.format import (
     CHANNELS,
@@ -30,6 +30,8 @@ from system.inputs.channels import ChannelName
 
 OTHER = 0.05
 """Probability from which a suspected cause, or another place of an effect (its share), is listed."""
+OUTSIDE = (EffectId.UNKNOWN_PHYSICS,)
+"""The class of a claim that has no other rival than a cause outside the catalogue."""
 COUNTS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
 
 
@@ -57,6 +59,10 @@ def headline(diagnosis: Diagnosis) -> str:
     causes = len(diagnosis.effects)
     outside = {EffectId.UNKNOWN_PHYSICS}
     alike = [len({*claim.equivalent} - outside) + len(claim.elsewhere) for claim in diagnosis.effects]
+    if stated_probability(diagnosis) < LIKELY:
+        several = 1 + alike[0] if causes == 1 else causes
+        words = f"{_count(several)} possible causes" if several > 1 else "a possible cause"
+        return f"{sentence_case(words)}, not sure{left}."
     if causes == 1 and alike[0]:
         return f"Narrowed down to {_count(1 + alike[0])} causes{left}."
     sure = not left and stated_probability(diagnosis) >= diagnosis.thresholds.name.probability
@@ -181,15 +187,18 @@ def _class(diagnosis: Diagnosis) -> Iterator[str]:
     """Effects and gaps that the recording cannot separate."""
     if diagnosis.status is VerdictStatus.SUSPICION:
         return
+    outside = [claim for claim in diagnosis.effects if claim.equivalent == OUTSIDE]
+    for behind in (True, False):
+        own = listed(effect_words([one.effect]) for one in outside if _is_behind_unknown(one, diagnosis) is behind)
+        others = sentence_case(_member(EffectId.UNKNOWN_PHYSICS, diagnosis))
+        if own and behind:
+            yield f"{others} is likelier. It may be {own} by another law."
+        elif own:
+            yield f"{others} in place of {own} fits this recording as well."
     for claim in diagnosis.effects:
-        if claim.equivalent:
-            others = listed((_member(one, diagnosis) for one in claim.equivalent), "or")
-            own = effect_words([claim.effect])
-            if claim.equivalent == (EffectId.UNKNOWN_PHYSICS,) and _is_behind_unknown(claim, diagnosis):
-                comparison = f"is likelier. It may be {own} by another law"
-            else:
-                comparison = f"in place of {own} fits this recording as well"
-            yield f"{others[0].upper()}{others[1:]} {comparison}."
+        if claim.equivalent and claim not in outside:
+            others = sentence_case(listed((_member(one, diagnosis) for one in claim.equivalent), "or"))
+            yield f"{others} in place of {effect_words([claim.effect])} fits this recording as well."
         if claim.pair and claim.elsewhere:
             own = f"{PLACES[claim.pair]} ({chance(1.0 - sum(part for _, part in claim.elsewhere))})"
             others = listed((f"{PLACES[gap]} ({chance(part)})" for gap, part in claim.elsewhere), "or")

@@ -22,7 +22,7 @@ from diagnosis.report.evidence import evidence
 from diagnosis.report.format import if_words
 from diagnosis.report.json_file import diagnosis_record, read_diagnosis
 from diagnosis.report.measure import NOTHING_AS_LIKELY, NOTHING_ELSE, measure_words, next_point_text
-from diagnosis.report.text import headline, paragraphs, rivals_words
+from diagnosis.report.text import doubt, headline, paragraphs, rivals_words
 from diagnosis.verdict.diagnosis import ClaimedEffect, Estimate, Remainder, VerdictStatus
 from diagnosis.verdict.row_numbers import by_table_rows
 from system import ChannelName, Component, Dimension, EffectId, Gap, InputFaults, Kind
@@ -150,6 +150,24 @@ def test_an_incomplete_name_is_likely_and_not_sure(named: Diagnosis) -> None:
     assert "A part of the mismatch remains that it does not explain." in statement(replace(one, effects=beside))
 
 
+def test_a_claim_that_is_less_likely_than_not_is_no_likely_cause(named: Diagnosis) -> None:
+    """The headline does not contradict "not sure"; one cause outside the catalogue is told once, of both claims."""
+    first, heating, nothing = named.hypotheses
+    both = replace(first, hypothesis=hypothesis(E.ELASTIC_OPENING, E.CHURNING), probability=0.19)
+    unknown = replace(heating, hypothesis=hypothesis(E.UNKNOWN_PHYSICS, kind=Kind.UNKNOWN_PHYSICS), probability=0.53)
+    claims = tuple(ClaimedEffect(one, None, 0.19, (E.UNKNOWN_PHYSICS,), ()) for one in (E.ELASTIC_OPENING, E.CHURNING))
+    two = replace(named, effects=claims, hypotheses=(both, unknown, nothing))
+    assert headline(two) == "Two possible causes, not sure."
+    assert doubt(two) == (
+        "A cause outside the catalogue (0.53) is likelier. It may be elastic opening and churning of oil in the case "
+        "by another law."
+    )
+    one = replace(two, effects=(replace(claims[0], equivalent=()),))
+    assert headline(one) == "A possible cause, not sure."
+    alike = replace(one, effects=(replace(claims[0], equivalent=(E.FILM_HEATING,)),))
+    assert headline(alike) == "Two possible causes, not sure."
+
+
 def test_what_remains_and_what_to_read_again_is_told(named: Diagnosis) -> None:
     """The channel and the part of the map where readings stay off, or what the rest looks like."""
     region = MapRegion(ChannelName.Q_OUT, {}, {"speed": 1200.0 * RPM}, -3.3, "speed below 1200 rpm")
@@ -214,7 +232,10 @@ def test_a_gap_that_cannot_be_told_is_told_with_its_rivals(named: Diagnosis) -> 
 def test_two_causes_together_are_not_told_as_one_of_two(named: Diagnosis) -> None:
     """Both act; what is open is which of two the first is."""
     first = replace(named.effects[0], equivalent=(E.FILM_HEATING,))
-    found = replace(named, status=VerdictStatus.CLASS, effects=(first, ClaimedEffect(E.CHURNING, None, 0.99, (), ())))
+    likeliest, *rest = named.hypotheses
+    both = replace(likeliest, hypothesis=hypothesis(E.ELASTIC_OPENING, E.CHURNING))
+    claims = (first, ClaimedEffect(E.CHURNING, None, 0.99, (), ()))
+    found = replace(named, status=VerdictStatus.CLASS, effects=claims, hypotheses=(both, *rest))
     text = statement(found)
     assert "wo causes found, one of which cannot be told from others." in text
     assert "that it is these, or what cannot be told from them" in certainty(found, scant=False)
