@@ -29,8 +29,8 @@ _NAMED = {
     Grade.CARE: (
         "actuator_oversized boundary_lubrication cavitation_below_vacuum coarse_angles coarse_mesh "
         "contact_beyond_roughness designs_refused energy_not_balanced error_unknown fidelities_differ "
-        "film_builds_no_pressure film_extent_unlikely film_hot film_not_thin film_pressure_beyond_oil film_runs_dry "
-        "film_without_supply motion_unstable no_3d_picture no_delivery "
+        "film_builds_no_pressure film_extent_unlikely film_has_inertia film_hot film_not_thin film_pressure_beyond_oil "
+        "film_runs_dry film_turbulent film_without_supply motion_unstable no_3d_picture no_delivery "
         "nothing_feasible pareto_still_grows points_failed port_pressure_follows_line profile_not_resolved "
         "pumps_refused seam_is_a_wall search_not_settled start_outside_bounds steps_too_long table_guesses "
         "operating.temperature piston.radial_clearance"

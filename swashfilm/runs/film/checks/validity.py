@@ -14,6 +14,7 @@ from reynolds.problem import Cavitation, FilmSolution, Pocket
 from reynolds.solve.loads import couette_through, dissipated
 from reynolds.solve.rubbing import rubbing
 from swashfilm.runs.film.checks.extent import Warned, extent_warnings
+from swashfilm.runs.film.checks.regime import regime_warnings
 from swashfilm.runs.film.checks.scale import natural_sizes
 from swashfilm.runs.film.checks.seam import seam_warnings
 from swashfilm.runs.film.solve.gap import gap_warnings
@@ -49,6 +50,7 @@ def film_warnings(study: FilmStudy) -> list[dict[str, str]]:
         *_pressure_warnings(study),
         *_supply_warnings(study),
         *seam_warnings(study.solution.problem, study.geometry),
+        *regime_warnings(study.solution),
         *_heat_warnings(study),
         *_size_warnings(study),
         *_one_sided_warnings(study),
@@ -191,7 +193,7 @@ def _pressure_warnings(study: FilmStudy) -> Iterator[Warned]:
     if highest > LARGEST_OIL_PRESSURE:
         yield beyond_oil(highest, elastic=study.solution.problem.walls is not None)
         return
-    constant = study.heat is None and study.solution.problem.fluid.viscosity is isoviscous
+    constant = study.solution.problem.fluid.viscosity is isoviscous
     if constant and not study.gap and highest > LARGEST_ISOVISCOUS_PRESSURE:
         yield (
             "viscosity_without_pressure",
