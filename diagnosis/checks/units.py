@@ -132,15 +132,42 @@ def _ratios(recording: Recording, displacement: float) -> Iterator[DataNote]:
         return _median(_torque_ratio(given, displacement))
 
     plate = _other_displacement(flow_of(ChannelName.Q_OUT)(recording), torque_of(recording), displacement)
+    swap = _swapped(recording, flow_of(ChannelName.Q_OUT), torque_of)
     for name, span in ((ChannelName.Q_OUT, _Span(*FLOW_RATIO)), (ChannelName.Q_IN, _Span(*INLET_RATIO))):
         text = f"{name.value} is {{:.3g}} times displacement x speed at half of the points"
-        yield from _ratio_fault(recording, flow_of(name), text, (name, ChannelName.SPEED), span, plate)
+        also = plate | swap.get(name, {})
+        yield from _ratio_fault(recording, flow_of(name), text, (name, ChannelName.SPEED), span, also)
     text = "torque is {:.3g} times displacement x pressure difference / 2 pi at half of the points"
     names = (ChannelName.TORQUE, ChannelName.P_OUT, ChannelName.P_IN)
     torque = recording.channel(ChannelName.TORQUE)
     own = 1.0 if torque is None else unit_scale(torque.unit, Dimension.TORQUE)[0]
     power = {"torque is the shaft's power in kW": 1e3 / own / recording.steady.column(ChannelName.SPEED)}
-    yield from _ratio_fault(recording, torque_of, text, names, _Span(*TORQUE_RATIO), plate | power)
+    also = plate | power | swap.get(ChannelName.TORQUE, {})
+    yield from _ratio_fault(recording, torque_of, text, names, _Span(*TORQUE_RATIO), also)
+
+
+def _swapped(recording: Recording, flow: Ratio, torque: Ratio) -> dict[ChannelName, dict[str, Array]]:
+    """Factors (N,) by which delivery flow and torque have each other's numbers, in words; empty where these do not fit.
+
+    flow, torque: medians over those of the pump file's displacement.
+    """
+    pair = (ChannelName.Q_OUT, ChannelName.TORQUE)
+    units = [recording.channel(name) for name in pair]
+    numbers = [
+        recording.steady.column(name) / unit_scale(one.unit, name.dimension)[0]
+        for name, one in zip(pair, units, strict=True)
+        if one is not None and name.dimension is not None
+    ]
+    if len(numbers) < len(pair):
+        return {}
+    by = numbers[1] / numbers[0]
+    other = _scaled(_scaled(recording, pair[0], by), pair[1], 1.0 / by)
+    ratios = flow(other), torque(other)
+    if ratios[0] is None or ratios[1] is None:
+        return {}
+    fits = _Span(*FLOW_RATIO).holds(ratios[0]) and _Span(*TORQUE_RATIO).holds(ratios[1])
+    words = "the columns of Q_out and torque swapped"
+    return {pair[0]: {words: by}, pair[1]: {words: 1.0 / by}} if fits else {}
 
 
 def _other_displacement(flow: float | None, torque: float | None, displacement: float) -> dict[str, Array]:
@@ -254,7 +281,7 @@ def _signs(recording: Recording) -> Iterator[DataNote]:
     for name in _DIRECTED:
         middle = _median(recording.steady.column(name))
         if middle is not None and middle < 0.0:
-            text = f"{name.value} is below zero at half of the points: of the other sign?"
+            text = f"{name.value} is below zero at half of the points or more: of the other sign?"
             yield DataNote(NoteKind.FAULT, name, (), text)
 
 

@@ -151,6 +151,18 @@ def test_gauge_read_as_absolute_and_places_changed():
     assert any("swapped" in text and kind is NoteKind.FAULT for kind, _, text in _told(swapped))
 
 
+def test_the_columns_of_flow_and_torque_swapped_are_told():
+    """Each has the other's numbers, in its own unit: L/min and N m."""
+    recording = _sound()
+    values = recording.steady.values.copy()
+    flow, torque = COLUMNS[ChannelName.Q_OUT], COLUMNS[ChannelName.TORQUE]
+    values[:, [flow, torque]] = values[:, [torque, flow]] * [1.0 / 6e4, 6e4]
+    faults = _told(replace(recording, steady=replace(recording.steady, values=values)))
+    hinted = {channel for _, channel, text in faults if "the columns of Q_out and torque swapped" in text}
+    assert hinted == {ChannelName.Q_OUT, ChannelName.TORQUE}
+    assert not any("swapped" in text for _, _, text in _told(_with("torque", lambda x: 0.1 * x)))
+
+
 @pytest.mark.parametrize("name", ["Q_out", "Q_case", "torque"])
 @pytest.mark.parametrize("size", [12.0, -15.0])
 def test_one_slip_is_put_aside_and_nothing_else(name, size):
