@@ -52,7 +52,7 @@ class FilmCase:
         return self.stated.film.geometry
 
     def refined(self) -> FilmCase:
-        """Return the case on a mesh twice finer, with half its time step.
+        """Return the case on a mesh twice finer, with half its time step and more levels across a warm film.
 
         Raises InputError where a field has no valid value there.
         """

@@ -49,11 +49,12 @@ class FilmStatement:
         return (*self.film.mesh.files, *(wall.mesh for wall in walls if isinstance(wall, FileBodySection)))
 
     def refined(self) -> FilmStatement:
-        """Return the film on a mesh twice finer, with the data of a mesh file on it, and with half its time step."""
+        """Return the film on a mesh twice finer, with a file's data on it, half its time step and more levels."""
         mesh = self.film.mesh.finer()
         keys = [key for key, own in fields_of(FilmSection).items() if own.formula]
         moved = {key: _on(getattr(self.film, key), mesh.data) for key in keys}
-        return replace(self, film=replace(self.film, mesh=mesh, **moved), time=self.time and self.time.halved)
+        film, time = replace(self.film, mesh=mesh, **moved), self.time and self.time.halved
+        return replace(self, film=film, time=time, thermal=self.thermal and self.thermal.finer)
 
 
 def _on(value: Any, data: MeshData) -> Any:

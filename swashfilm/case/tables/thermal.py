@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from typing import Annotated
 
@@ -19,6 +19,8 @@ from system.inputs.sections.fields import Conductivity, Limits, Positive, Temper
 from system.inputs.sections.reader import table_section
 from system.inputs.toml_table import Table
 from system.inputs.units import Dimension
+
+MOST_LEVELS = 12
 
 
 class PlainWall(Enum):
@@ -81,7 +83,12 @@ class ThermalSection:
     fixed_wall: WallForm
     moving_wall: WallForm
     inlet_temperature: Temperature | None = None  # left out: that of the oil
-    levels: Annotated[int, Limits(least=2, most=12)] = DEFAULT_LEVELS  # across the film
+    levels: Annotated[int, Limits(least=2, most=MOST_LEVELS)] = DEFAULT_LEVELS  # across the film
+
+    @property
+    def finer(self) -> ThermalSection:
+        """The same with two more levels across the film: their error falls faster than that of cells."""
+        return replace(self, levels=min(self.levels + 2, MOST_LEVELS))
 
     @property
     def walls(self) -> Mapping[str, WallForm]:

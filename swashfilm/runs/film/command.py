@@ -28,7 +28,8 @@ def add_film_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("case", type=Path, metavar="CASE.toml", help="the film case")
     command.add_argument(
         "--refine", metavar="N",
-        help="solve on N meshes, each twice as fine with half the time step; report order and limit",
+        help="solve on N meshes, each twice as fine with half the time step, a warm film with two more levels; report "
+        "order and limit",
     )  # fmt: skip
     command.add_argument("--resume", type=Path, metavar="DIR", help="of a study: run folder with finished points")
     command.add_argument("--workers", metavar="N", help="of a study: processes that solve points side by side (1)")

@@ -21,7 +21,7 @@ from swashfilm.runs.film.summary import film_summary
 from system.inputs.faults import Fault, InputFaults
 from system.work.progress import Report, Stage
 
-CHECKS = ("time_steps", "mass_balance_error_of_time", "cylinder_radius_m")
+CHECKS = ("time_steps", "mass_balance_error_of_time", "heat_balance_error", "cylinder_radius_m")
 """Numbers without a limit: a count, round-off, and a size of the mesh."""
 
 

@@ -12,6 +12,7 @@ import skfem
 from bench_pump import BENCH
 from slider_case import slider_case
 
+import swashfilm as sf
 from reynolds import Cell, annulus, film_space, mesh_from_file, rectangle
 from reynolds.fem.mesh import FilmMesh, loop_names
 from reynolds.fem.mesh_check import mesh_faults
@@ -185,6 +186,36 @@ def test_a_slider_on_three_meshes_tends_to_the_closed_form(tmp_path, monkeypatch
     assert float(rows["load"]["limit"]) == pytest.approx(found["extrapolated"], rel=1e-7)
     assert "converges as expected" in capsys.readouterr().out
     assert "Finer meshes" in Path("run/report.html").read_text("utf-8")
+
+
+WARM = """
+format = 1
+[film]
+mesh = { kind = "rectangle", size = ["20 mm", "1 mm"], cells = [20, 1], periodic = "y" }
+thickness = "1e-5*(2 - x/0.02)"
+velocity = ["25 m/s", "0 m/s"]
+[oil]
+grade = "ISO VG 46"
+density = "860 kg/m3"
+temperature = "40 degC"
+specific_heat = "1950 J/(kg K)"
+thermal_conductivity = "0.13 W/(m K)"
+[thermal]
+fixed_wall = "adiabatic"
+moving_wall = { temperature = "40 degC" }
+levels = LEVELS
+[boundary]
+left = { pressure = "0 bar" }
+right = { pressure = "0 bar" }
+"""
+
+
+def test_the_bar_of_a_warm_film_counts_its_levels():
+    """Two levels across a film err by 3 % of the load, which finer cells alone would not see."""
+    fine = sf.film(WARM.replace("LEVELS", "12").replace("[20, 1]", "[160, 1]")).load
+    found = sf.film(WARM.replace("LEVELS", "2"), refine=3).summary["refinement"]["numbers"]
+    assert abs(found["load_N"]["extrapolated"] - fine) <= found["load_N"]["error"] < 0.01 * fine
+    assert "heat_balance_error" not in found
 
 
 def test_data_of_a_mesh_file_go_along(tmp_path, monkeypatch):
