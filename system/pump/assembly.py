@@ -204,7 +204,7 @@ def put_together(
             work_balance_error=abs(power.shaft - power.accounted) / abs(power.shaft),
             quadrature_error=quadrature / pairs.power,
         ),
-        warnings=(*_remarks(asked, ported, reading, leaks), *_unbalanced(energy)),
+        warnings=(*_remarks(asked, ported, reading, leaks, pistons), *_unbalanced(energy)),
     )
 
 
@@ -219,10 +219,13 @@ def pumps(reading: BenchReading) -> bool:
     return reading.shaft_power > 0.0 and reading.inlet_flow > 0.0 and reading.delivery_flow > 0.0
 
 
-def _remarks(asked: OperatingPoint, ported: PortedCycle, reading: BenchReading, leaks: Gaps[float]) -> Iterator[Remark]:
+def _remarks(
+    asked: OperatingPoint, ported: PortedCycle, reading: BenchReading, leaks: Gaps[float], pistons: int
+) -> Iterator[Remark]:
     yield from _ports_off(asked, ported, reading)
     if not pumps(reading):
-        yield _no_delivery(reading, leaks)
+        a_turn = displacement(pistons, ported.problem.piston_area, stroke(ported.problem.drive))
+        yield _no_delivery(reading, leaks, a_turn * reading.shaft_speed / TURN)
     degrees = np.degrees(ported.cycles[0].shaft_angle)
     cycle, name = _chamber_by(ported, lambda one: -float(one.pressure.min()))
     if cycle.cavitates:
@@ -246,10 +249,17 @@ def _remarks(asked: OperatingPoint, ported: PortedCycle, reading: BenchReading, 
         )
 
 
-def _no_delivery(reading: BenchReading, leaks: Gaps[float]) -> Remark:
-    """The remark of a machine that does not pump: its oil drives it, or leaks."""
-    driven = reading.inlet_flow > 0.0 and reading.delivery_flow > 0.0
-    why = "the oil drives the shaft, as in a motor; efficiencies of a pump are void" if driven else _leaking(leaks)
+def _no_delivery(reading: BenchReading, leaks: Gaps[float], moved: float) -> Remark:
+    """The remark of a machine that does not pump: its oil drives it, leaks, or goes back to the inlet in the chambers.
+
+    moved: flow (m3/s) of the pistons.
+    """
+    if reading.inlet_flow > 0.0 and reading.delivery_flow > 0.0:
+        why = "the oil drives the shaft, as in a motor; efficiencies of a pump are void"
+    elif leaks.total >= moved:
+        why = _leaking(leaks)
+    else:
+        why = _carried_back(moved, leaks.total, moved - leaks.total - reading.delivery_flow)
     return Remark(
         PointWarning.NO_DELIVERY,
         f"delivery flow {reading.delivery_flow * LPM:.3g} L/min, inlet flow {reading.inlet_flow * LPM:.3g} L/min, "
@@ -264,6 +274,16 @@ def _leaking(leaks: Gaps[float]) -> str:
         f"leakage takes more than the pistons move, {getattr(leaks, widest) * LPM:.3g} of {leaks.total * LPM:.3g} "
         f"L/min through the {widest.replace('_', ' ')} gap, efficiencies are void; a tighter gap there, more speed or "
         "displacement, less pressure or temperature"
+    )
+
+
+def _carried_back(moved: float, leakage: float, back: float) -> str:
+    """Flow back in the chambers above that of the pistons less the leakage; all in m3/s."""
+    return (
+        f"the pistons move {moved * LPM:.3g} L/min, of which leakage takes {leakage * LPM:.3g} L/min; the chambers "
+        f"take {back * LPM:.3g} L/min back from delivery to inlet, as oil pressed in their dead volume or through "
+        "ports that change over at other angles, efficiencies are void; a larger displacement, a smaller dead_volume, "
+        "less pressure, or other port angles"
     )
 
 

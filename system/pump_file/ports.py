@@ -38,10 +38,15 @@ def of_sides(findings: Callable[[PumpDescription], Iterator[Finding]]) -> Callab
 
 def _at_delivery(pump: PumpDescription, finding: Finding) -> Finding:
     """A finding of the delivery side at the path of the table that gives its value."""
-    key = finding.path.removeprefix("ports.").partition(".")[0]
-    if getattr(pump.ports.delivery, key, None) in (None, ()):
-        return finding
-    return replace(finding, path=finding.path.replace("ports.", "ports.delivery.", 1))
+    return replace(finding, path=_path_of("delivery", finding.path, pump))
+
+
+def _path_of(side: str, path: str, pump: PumpDescription) -> str:
+    """Path of a side's value: in [ports.delivery] for the delivery side if that states it, else in [ports]."""
+    key = path.removeprefix("ports.").partition(".")[0]
+    if side != "delivery" or getattr(pump.ports.delivery, key, None) in (None, ()):
+        return path
+    return path.replace("ports.", "ports.delivery.", 1)
 
 
 @needs("ports.coefficient_file")
@@ -101,14 +106,13 @@ def ports_shut_before_the_other_opens(pump: PumpDescription) -> Iterator[Finding
         shut, opens = last[1], math.pi + first[1]
         if shut >= opens and (last, first) not in reported:
             reported.add((last, first))
-            yield _at_delivery(
-                pump,
-                Fault(
-                    f"ports.{last[0]}",
-                    f"{angle(shut)}: {names[k]} is still open when {names[1 - k]} opens",
-                    f"less than {angle(opens)} (180 deg + {first[0]}), else the ports are short-circuited",
-                    f"a smaller {last[0]} or a larger {first[0]}",
-                ),
+            shuts_at = _path_of(names[k], f"ports.{last[0]}", pump)
+            opens_at = _path_of(names[1 - k], f"ports.{first[0]}", pump)
+            yield Fault(
+                shuts_at,
+                f"{angle(shut)}: {names[k]} is still open when {names[1 - k]} opens",
+                f"less than {angle(opens)} (180 deg + {opens_at}), else the ports are short-circuited",
+                f"a smaller {shuts_at} or a larger {opens_at}",
             )
 
 

@@ -163,6 +163,19 @@ def test_a_pump_that_delivers_nothing_has_no_efficiency(tmp_path, capsys):
     assert "overall efficiency          none" in capsys.readouterr().out
 
 
+def test_a_small_stroke_that_presses_oil_back_is_no_leak(tmp_path):
+    """At 1 % of the stroke the dead volume takes more oil back than the pistons move, and the gaps hardly leak."""
+    folder = tmp_path / "run"
+    assert main(["run", "ref90", "--fidelity", "lumped", "--displacement", "0.01", "-o", str(folder)]) == 0
+    found = summary(folder)
+    flow, leakage = found["flow"], sum(found["leakage"].values())
+    assert flow["delivery_m3_per_s"] < 0.0 < leakage < flow["geometric_m3_per_s"]
+    (told,) = (warning for warning in found["warnings"] if warning.startswith("no_delivery"))
+    back = flow["geometric_m3_per_s"] - leakage - flow["delivery_m3_per_s"]
+    assert f"the pistons move {flow['geometric_m3_per_s'] * 6e4:.3g} L/min" in told
+    assert f"take {back * 6e4:.3g} L/min back from delivery to inlet" in told
+
+
 @pytest.mark.parametrize(
     ("stated", "told"),
     [

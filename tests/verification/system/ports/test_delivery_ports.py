@@ -68,5 +68,11 @@ def test_faults_stand_at_the_table_that_brings_them():
     assert "delivery is still open when suction opens" in told["ports.delivery.kidney_end"]
     assert "square ends" in told["ports.delivery.kidney_area"]
     with pytest.raises(InputFaults) as raised:
+        load_pump(BENCH, LATER | {"ports.kidney_end": "186 deg", "ports.delivery.groove_start": "1 deg"})
+    (late,) = (fault for fault in raised.value.faults if "short-circuited" in fault.expected)
+    assert late.path == "ports.kidney_end"
+    assert late.found.startswith("186 deg: suction is still open when delivery opens")
+    assert "181 deg (180 deg + ports.delivery.groove_start)" in late.expected
+    with pytest.raises(InputFaults) as raised:
         load_pump(BENCH, {"ports.delivery.kidney_ends": "170 deg"})
     assert [fault.nearest for fault in raised.value.faults] == ["kidney_end"]
