@@ -43,9 +43,9 @@ _NAMED = {
     ),
     Grade.MODEL: (
         "cavity_does_not_conserve_mass coefficients_beyond_file film_angles_too_few film_pressure_beyond_rigid "
-        "flow_factors_out_of_range friction_at_low_speed large_error load_not_carried losses_left_out "
-        "pressure_below_cavitation results_thinned shares_uncertain start_refused table_error temperature_not_solved "
-        "values_scaled viscosity_without_pressure weakly_active_cavity "
+        "flow_factors_out_of_range friction_at_low_speed friction_of_rough_walls large_error load_not_carried "
+        "losses_left_out pressure_below_cavitation results_thinned shares_uncertain start_refused table_error "
+        "temperature_not_solved values_scaled viscosity_without_pressure weakly_active_cavity "
         "operating.inlet_pressure operating.pressure operating.speed "
         "slipper.groove_file slipper.orifice_file slipper.pocket_file valve_plate.kidney_file "
         "valve_plate.sphere_radius"

@@ -38,6 +38,7 @@ MOST_CAVITY = 0.5  # of the film's area, beside which a film without pressure of
 VACUUM = -101325.0  # Pa, gauge
 LEAST_LAMBDA = 1.0  # h/sigma; below, contacts support most of the load
 LARGEST_ISOVISCOUS_PRESSURE = 50e6  # Pa; the viscosity of a mineral oil is about three times its low-pressure value
+LARGEST_FLANK_POWER = 0.05  # of the largest power: work on the flanks of rough walls
 LARGEST_OIL_PRESSURE = 1e9  # Pa; oil turns solid about it, and hardened steel yields soon above it
 
 
@@ -174,6 +175,13 @@ def _rough_warnings(study: FilmStudy) -> Iterator[Warned]:
             f"h/sigma is {beyond.lowest_ratio:.3g} at the least, below the {beyond.limit:g} down to "
             f"which Patir and Cheng's flow factors are published, on {beyond.fraction:.1%} of the film: "
             "they are extrapolated; use a thicker film or smoother walls",
+        )
+    if (missing := study.loads.energy_balance_error) > LARGEST_FLANK_POWER:
+        yield (
+            "friction_of_rough_walls",
+            f"{missing:.0%} of the largest power is not in the energy balance (limit {LARGEST_FLANK_POWER:.0%}): it is "
+            "the work of the pressure on the flanks of the asperities, which no published factor includes; friction "
+            "and dissipation are uncertain by as much; use a thicker film or smoother walls",
         )
 
 
