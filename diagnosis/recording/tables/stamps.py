@@ -55,11 +55,14 @@ def _forms(text: str) -> Iterator[str]:
 
 
 def _parsed(texts: Sequence[str], form: str) -> pd.Series:
-    """Dates of a form, with a fraction of the second or without."""
+    """Dates of a form, with a fraction of the second or without; of a zone (Z, +02:00) in universal time."""
     whole = form.replace(".%f", "")
     cells, fine = pd.Series(texts), whole.replace("%S", "%S.%f")
-    seconds, fractions = (pd.to_datetime(cells, format=one, errors="coerce") for one in (whole, fine))
-    return seconds.astype("datetime64[us]").fillna(fractions.astype("datetime64[us]"))
+    seconds, fractions = (
+        pd.to_datetime(cells, format=one, errors="coerce", utc=True).dt.tz_localize(None).astype("datetime64[us]")
+        for one in (whole, fine)
+    )
+    return seconds.fillna(fractions)
 
 
 def _of_day(texts: Sequence[str]) -> Array:

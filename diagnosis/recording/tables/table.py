@@ -71,7 +71,8 @@ def foreign(source: TableSource, kind: str) -> Iterator[None]:
         raise
     except (Exception, SystemExit) as reason:  # the libraries have no common class of faults
         words = " ".join(str(reason).split()) or type(reason).__name__
-        near = f"text, to be named {source.path.with_suffix('.csv').name}" if _is_text(source.path) else ""
+        other = source.path.with_suffix(".csv").name
+        near = f"text, to be named {other}" if _is_text(source.path) and other != source.path.name else ""
         raise TableFault(f"'{source.path.name}', unreadable: {words}", kind, near) from reason
 
 

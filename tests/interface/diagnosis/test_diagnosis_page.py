@@ -310,6 +310,9 @@ def test_the_terminal_names_the_rivals_before_the_cost(named: Diagnosis) -> None
     told = " ".join(answer_lines(answer | {"look": looks}, 9))
     assert "Heating of the oil films in place of elastic opening fits this recording as well." in told
     assert "It costs" not in told
+    least = " ".join(answer_lines(answer | {"look": looks}, 7))
+    assert "Heating of the oil films in place of elastic opening" in least
+    assert "Churning" not in least
 
 
 def test_maps_of_one_speed_are_drawn_over_temperature(study: Study, named: Diagnosis, tmp_path: Path) -> None:
