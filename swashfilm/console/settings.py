@@ -19,14 +19,19 @@ def add_set_option(parser: argparse.ArgumentParser, of: str = "the pump file", e
 
 
 def set_values(texts: Iterable[str], faults: list[Fault], example: str = EXAMPLE) -> dict[str, object]:
-    """Return the values of --set by key, as written in a file; list the fault of a text that is no KEY=VALUE."""
+    """Return the values of --set by key, as written in a file.
+
+    Lists the fault of a text that is no KEY=VALUE, and of a key with two values.
+    """
     stated: dict[str, object] = {}
     for text in texts:
-        key, equals, value = text.partition("=")
-        if equals and key.strip() and value.strip():
-            stated[key.strip()] = toml_value(value.strip())
-        else:
+        key, equals, value = (part.strip() for part in text.partition("="))
+        if not (equals and key and value):
             faults.append(Fault("--set", repr(text), f"KEY=VALUE, such as {example}"))
+            continue
+        found = toml_value(value)
+        if stated.setdefault(key, found) != found:
+            faults.append(Fault(f"--set {key}", f"{stated[key]!r} and {found!r}", "one value of a key"))
     return stated
 
 

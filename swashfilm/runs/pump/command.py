@@ -110,6 +110,7 @@ def varied_case(options: argparse.Namespace) -> tuple[PumpStudy, int]:
     if options.refine is not None:
         faults.append(Fault("--refine", "beside --vary", "one of the two"))
     axes = vary_axes(options.vary, faults)
+    faults += _beside_levels([axis.key for axis in axes], options)
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
     one = argparse.Namespace(**{**vars(options), "vary": [], "workers": None, "resume": None})
@@ -150,7 +151,7 @@ def pump_case(options: argparse.Namespace, values: Mapping[str, object] | None =
     try:
         known = load_known_pump(options.pump, stated)
     except InputFaults as reason:
-        raise _at_options(reason, stated, faults) from None
+        raise _at_options(reason, options, faults) from None
     own = pump = known.pump
     if _TEMPERATURE in stated and pump.physics.thermal_clearance is not None:
         own = load_pump(options.pump, {path: value for path, value in stated.items() if path != _TEMPERATURE})
@@ -190,6 +191,8 @@ def _overrides(options: argparse.Namespace) -> tuple[dict[str, object], list[Fau
         text = option_value(options, option)
         if text is None:
             continue
+        if path in stated:
+            faults.append(Fault(option, f"{text!r} beside --set {path}={stated[path]}", "one of the two"))
         stated[path] = text
         if option == "--displacement":
             try:
@@ -201,9 +204,20 @@ def _overrides(options: argparse.Namespace) -> tuple[dict[str, object], list[Fau
     return stated, faults
 
 
-def _at_options(reason: InputFaults, stated: dict[str, object], faults: list[Fault]) -> InputFaults:
+def _given_options(options: argparse.Namespace) -> dict[str, str]:
+    """Return the options of the command line that replace a value of the pump file, by its path."""
+    return {path: option for option, (path, _, _) in _OVERRIDES.items() if option_value(options, option) is not None}
+
+
+def _beside_levels(keys: Sequence[str], options: argparse.Namespace) -> list[Fault]:
+    """Return the faults of keys of --vary that another option gives one value."""
+    given = {path: f"--set {path}" for path in set_values(options.set, [])} | _given_options(options)
+    return [Fault(f"--vary {key}", f"beside {given[key]}", "one of the two") for key in keys if key in given]
+
+
+def _at_options(reason: InputFaults, options: argparse.Namespace, faults: list[Fault]) -> InputFaults:
     """Return the faults of a pump, those of replaced values at their options."""
-    option_of = {path: option for option, (path, _, _) in _OVERRIDES.items() if path in stated}
+    option_of = _given_options(options)
     moved = [Fault(option_of.get(f.path, f.path), f.found, f.expected, f.nearest) for f in reason.faults]
     all_ours = all(fault.path in _OVERRIDES for fault in moved)
     return InputFaults(COMMAND_LINE if all_ours else reason.source, [*faults, *moved], reason.lines)

@@ -93,6 +93,27 @@ def test_what_is_wrong_with_a_range_is_told_before_a_point_is_solved(tmp_path, m
         sf.run("ref90", fidelity="lumped", vary={FILM: "6..14um:3"})
 
 
+def test_a_key_has_one_value_on_a_command_line(capsys):
+    """No option outweighs another one in silence: both are told, each at its place."""
+    speed = "operating.speed"
+    text = told([*LUMPED, "--vary", f"{speed}=500..2100rpm:3", "--speed", "1000rpm"], capsys)
+    assert f"--vary {speed}\n    found:    beside --speed" in text
+    text = told(
+        [*LUMPED, "--vary", f"{speed}=500,900rpm", "--vary", f"{speed}=1000rpm", "--set", f"{speed}=1rpm"], capsys
+    )
+    assert f"--vary {speed}\n    found:    stated twice" in text
+    assert f"--vary {speed}\n    found:    beside --set {speed}" in text
+    text = told([*LUMPED, "--set", f"{speed}=900rpm", "--speed", "1000rpm"], capsys)
+    assert f"--speed\n    found:    '1000rpm' beside --set {speed}=900rpm" in text
+    text = told([*LUMPED, "--set", f"{FILM}=8um", "--set", f"{FILM}=10um"], capsys)
+    assert f"--set {FILM}\n    found:    '8um' and '10um'" in text
+
+
+def test_the_fault_of_a_set_key_is_not_one_of_an_option(capsys):
+    assert "  operating.pressure\n" in told([*LUMPED, "--set", "operating.pressure=1MPa"], capsys)
+    assert "  --pressure\n" in told([*LUMPED, "--pressure", "1MPa"], capsys)
+
+
 def test_a_map_and_a_case_take_other_values_of_keys(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     case = '[film]\nthickness = "10 um"\nviscosity = "30 mPa s"\nvelocity = ["1 m/s", "0 m/s"]\n'

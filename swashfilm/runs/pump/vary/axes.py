@@ -26,6 +26,8 @@ def vary_axes(texts: Sequence[str], faults: list[Fault]) -> tuple[StudyAxis, ...
         if not (equals and key and levels):
             faults.append(Fault("--vary", repr(text), f"KEY=LEVELS, such as {LEVELS_EXAMPLE}"))
             continue
+        if key in found:
+            faults.append(Fault(f"--vary {key}", "stated twice", "one list of levels, such as 6..14um:9,20um"))
         try:
             found[key] = _axis(key, levels)
         except QuantityError as reason:
