@@ -22,6 +22,8 @@ ENDS = 0.15
 """Of an axis: the parts at its ends whose difference is stated."""
 NOTHING = 0.005
 """Of the largest difference: a smaller one is none."""
+HIDDEN = 3.0
+"""Times the misfit without the finding that the difference is at least, where the fit hides it."""
 SIDES = {
     ChannelName.Q_OUT: ("The pump delivers more oil than simulated", "The pump delivers less oil than simulated"),
     ChannelName.Q_IN: ("The pump takes in more oil than simulated", "The pump takes in less oil than simulated"),
@@ -65,9 +67,17 @@ def course_words(study: Study, diagnosis: Diagnosis) -> str:
     more, less = SIDES[channel]
     ends = _ends(channel, own[measured], {name: x[measured] for name, x in axis_values(study.recording).items()})
     same = _same(diagnosis.scaling, diagnosis.thresholds.form.flat)
-    return (
-        f"{more if float(np.sum(own[measured])) > 0.0 else less}: {', '.join(part for part in (ends, same) if part)}."
-    )
+    side = more if float(np.sum(own[measured])) > 0.0 else less
+    return f"{side}: {', '.join(part for part in (ends, same) if part)}.{_made_up(channel, own[measured], diagnosis)}"
+
+
+def _made_up(channel: ChannelName, added: Array, diagnosis: Diagnosis) -> str:
+    """A sentence of its own, with a blank before it, where a fit without the finding hides most of the difference."""
+    before = diagnosis.fit.before.get(channel)
+    if before is None or float(np.sqrt(np.mean(added**2))) < HIDDEN * before:
+        return ""
+    left = f"{difference(channel, before):.2g} {difference_unit(channel)}"
+    return f" Fitted without the finding, other values of pump and meters make up for it to {left} (rms)."
 
 
 def _channel(study: Study, diagnosis: Diagnosis) -> ChannelName | None:
