@@ -20,8 +20,10 @@ from system.inputs.versions import version_fault
 from system.pump_file.check import CheckReport, run_checks
 from system.pump_file.parts import single_parts_checked
 from system.pump_file.scaled.completed import completed, is_scant
-from system.pump_file.tables import BUILT_IN, CHECKS, TABLES, pump_of_tables
+from system.pump_file.tables import BUILT_IN, CHECKS, GRADE_KEYS, TABLES, pump_of_tables
 
+GRADE = "oil.grade"
+VISCOSITIES = frozenset(f"oil.{key}" for key in GRADE_KEYS)
 Variant = tuple[tuple[str, float], ...]
 """Paths of a pump's dimensions with the values (SI) that stand in place of its own."""
 
@@ -53,8 +55,9 @@ def builtin_pumps() -> tuple[str, ...]:
 def load_pump(source: str | Path, overrides: Mapping[str, object] | None = None) -> PumpDescription:
     """Return the description of a built-in pump (by name) or of a pump file (by path), in SI.
 
-    `overrides` puts values in place of the file's, as written there: {"operating.speed": "1500 rpm"}. A file named in a
-    value is sought beside the pump file; with a built-in pump, in the working directory. A scant file is completed;
+    `overrides` puts values in place of the file's, as written there: {"operating.speed": "1500 rpm"}. An oil's grade
+    takes the place of its two viscosities, and they that of the grade. A file named in a value is sought beside the
+    pump file; with a built-in pump, in the working directory. A scant file is completed;
     `load_known_pump` lists the assumptions. Raises InputFaults with all faults: in the file's form, its units, its
     values and its geometry. Doubtful values raise no exception; `check_pump` reports them.
     """
@@ -79,7 +82,7 @@ def load_known_pump(source: str | Path, overrides: Mapping[str, object] | None =
     folder = HERE if built_in else Path(source).parent
     if not scant:
         return known_pump(pump_of_tables(label, tables, folder, lines))
-    whole = completed(label, tables, Path(source).stem, lines)
+    whole = completed(label, tables, Path(source).stem, lines, folder)
     pump = pump_of_tables(label, whole.tables, folder, lines)
     return KnownPump(pump, True, whole.stated, whole.assumptions)
 
@@ -144,17 +147,32 @@ def _not_there(path: Path) -> Fault:
 
 
 def _replace(tables: dict[str, Any], values: Mapping[str, object], lines: dict[str, int | None]) -> None:
-    """Put values by their paths in place of the file's; they have no line."""
+    """Put values by their paths in place of the file's, and of what else of it states the same; they have no line."""
+    for path in _same(values).difference(values):
+        _table_of(tables, path).pop(path.rpartition(".")[2], None)
     for path, value in values.items():
-        *within, key = path.split(".")
-        table = tables
-        for name in within:
-            if not isinstance(table.get(name), dict):
-                table[name] = {}
-            table = table[name]
-        table.pop(key + ABSOLUTE, None)
-        table[key] = value
+        _table_of(tables, path)[path.rpartition(".")[2]] = value
         lines[path] = None
+
+
+def _same(values: Mapping[str, object]) -> set[str]:
+    """Return the paths of a file that state what these do: a pressure gauge or absolute, a grade or its viscosities."""
+    found = {path.removesuffix(ABSOLUTE) if path.endswith(ABSOLUTE) else path + ABSOLUTE for path in values}
+    if GRADE in values:
+        found |= VISCOSITIES
+    if values.keys() >= VISCOSITIES:
+        found.add(GRADE)
+    return found
+
+
+def _table_of(tables: dict[str, Any], path: str) -> dict[str, Any]:
+    """Return the table that holds a path, new where the file has none."""
+    table = tables
+    for name in path.split(".")[:-1]:
+        if not isinstance(table.get(name), dict):
+            table[name] = {}
+        table = table[name]
+    return table
 
 
 def _check_format(label: str, tables: Mapping[str, Any], lines: Mapping[str, int | None]) -> None:

@@ -11,9 +11,17 @@ from system.description.drawing import drawing_faults
 from system.description.ports import PortsSection
 from system.description.pump import FORMAT, SINGLE_PARTS, PumpDescription
 from system.inputs.coefficients.flow_files import FlowCoefficients
-from system.inputs.faults import InputFaults, nearest_choice, stated
+from system.inputs.faults import Fault, InputFaults, nearest_choice, stated
 from system.inputs.sections.fields import fields_of
-from system.inputs.sections.reader import Reading, Special, is_number, left_out_section, read_entry, read_section
+from system.inputs.sections.reader import (
+    Reading,
+    Special,
+    is_number,
+    left_out_section,
+    partial_section,
+    read_entry,
+    read_section,
+)
 from system.inputs.sections.values import HERE
 from system.pump.ports.flow_coefficients import file_law
 from system.pump_file import bodies, films, geometry, losses, operating, parts, ports, values
@@ -40,12 +48,7 @@ def pump_of_tables(
     lines: of the file's paths. Raises InputFaults, under the name `label`, with all faults of the tables, those of the
     checks included.
     """
-    reading = Reading(folder, _SPECIAL, SINGLE_PARTS)
-    name = tables.get("name")
-    known = ["name", "format", *TABLES]
-    for key in tables:
-        if key not in known:
-            reading.unknown("", key, known)
+    reading, name = _reading(tables, folder), tables.get("name")
     if "name" not in reading.faulty and not (isinstance(name, str) and name.isprintable() and name):
         reading.fault("name", stated(name), "the pump's name, one line of text")
     sections: dict[str, Any] = {
@@ -66,6 +69,25 @@ def pump_of_tables(
     if reading.faults:
         raise InputFaults(label, reading.faults, lines)
     return pump
+
+
+def faults_as_written(tables: Mapping[str, Any], folder: Path = HERE) -> list[Fault]:
+    """Return the faults of the keys that the tables of a pump file have, each by itself, without those they lack."""
+    reading = _reading(tables, folder)
+    for key, model in TABLES.items():
+        if key in tables:
+            read_section(key, model, tables[key], reading, partial_section(model, {}))
+    return reading.faults
+
+
+def _reading(tables: Mapping[str, Any], folder: Path) -> Reading:
+    """Return the reading of a pump file, its unknown tables noted."""
+    reading = Reading(folder, _SPECIAL, SINGLE_PARTS)
+    known = ["name", "format", *TABLES]
+    for key in tables:
+        if key not in known:
+            reading.unknown("", key, known)
+    return reading
 
 
 def _singles(name: str, base: Any, table: object, reading: Reading) -> tuple[tuple[int, Any], ...]:

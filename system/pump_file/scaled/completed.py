@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from system.description.assumptions import Assumption
 from system.description.pump import FORMAT
 from system.inputs.faults import Fault, InputFaults
+from system.inputs.sections.fields import fields_of
+from system.inputs.sections.values import HERE
 from system.inputs.units import Dimension, format_quantity
-from system.pump_file.scaled.facts import facts_of
-from system.pump_file.scaled.open_circuit import open_circuit_values
+from system.pump_file.scaled.facts import Facts, facts_of
+from system.pump_file.scaled.open_circuit import OPEN_OPERATING, open_circuit_values
 from system.pump_file.scaled.scaling import SIZED, scaled_tables
-from system.pump_file.tables import pump_of_tables
+from system.pump_file.tables import faults_as_written, pump_of_tables
 
 NEEDED = ("slipper", "valve_plate", "ports")
 """Tables without which a pump file is a scant one."""
@@ -48,8 +51,9 @@ class Completed:
 
     def in_open_circuit(self) -> Completed:
         """Return the pump with inlet, case, spring and ports of one that draws from a tank."""
-        values = open_circuit_values(pump_of_tables(self.tables["name"], self.tables))
         tables = {name: dict(own) if isinstance(own, dict) else own for name, own in self.tables.items()}
+        tables["operating"] |= OPEN_OPERATING
+        values = open_circuit_values(pump_of_tables(self.tables["name"], tables))
         for path, value in values.items():
             *sections, key = path.split(".")
             table: Any = tables
@@ -67,15 +71,18 @@ def is_scant(tables: Mapping[str, Any]) -> bool:
 
 
 def completed(
-    label: str, stated: Mapping[str, Any], name: str, lines: Mapping[str, int | None] | None = None
+    label: str, stated: Mapping[str, Any], name: str, lines: Mapping[str, int | None] | None = None, folder: Path = HERE
 ) -> Completed:
     """Return the tables of a scant file with REF90's, scaled, for missing values; `name` is the pump's if unnamed.
 
-    Raises InputFaults under the name `label` if displacement, pistons or oil is not stated.
+    Raises InputFaults under the name `label` if displacement, pistons or oil is not stated, with the faults of all that
+    is; files in values are sought in `folder`.
     """
     faults: list[Fault] = []
     facts = facts_of(stated, faults)
     if facts is None:
+        own = {f"pump.{key}" for key in fields_of(Facts)} | {fault.path for fault in faults}
+        faults += [fault for fault in faults_as_written(stated, folder) if fault.path not in own]
         raise InputFaults(label, faults, lines)
     tables: dict[str, Any] = {"name": name, "format": FORMAT, **scaled_tables(facts), "tolerance": dict(_WIDE)}
     paths = set()

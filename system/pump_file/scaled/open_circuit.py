@@ -8,6 +8,7 @@ from system.inputs.units import Dimension, format_quantity
 from system.pump.laws.kinematics import piston_velocity
 from system.pump.lumped import full_drive, piston_area
 
+OPEN_OPERATING = {"inlet_pressure": "0 MPa", "case_pressure": "0.03 MPa"}
 STIFFER = 2.0
 """Springs of an open circuit over those of a closed one, whose inlet presses slippers on the plate by itself."""
 SUCTION_BEGINS = math.radians(0.0)
@@ -37,8 +38,7 @@ def open_circuit_values(pump: PumpDescription) -> dict[str, str]:
     delivery = _throat(pump, DELIVERY_GROOVE_ENDS, DELIVERY_SHARE * rated)
     spring = format_quantity(STIFFER * pump.ball_guide.spring_preload, Dimension.FORCE, digits=4)
     return {
-        "operating.inlet_pressure": "0 MPa",
-        "operating.case_pressure": "0.03 MPa",
+        **{f"operating.{key}": value for key, value in OPEN_OPERATING.items()},
         "ball_guide.spring_preload": spring,
         **_port("ports", (SUCTION_BEGINS, SUCTION_GROOVE_ENDS, SUCTION_SHUTS), arc, suction),
         **_port("ports.delivery", (DELIVERY_BEGINS, DELIVERY_GROOVE_ENDS, DELIVERY_SHUTS), arc, delivery),

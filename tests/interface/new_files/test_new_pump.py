@@ -54,6 +54,11 @@ def test_the_ports_of_an_open_circuit_neither_starve_nor_trap_a_chamber(
         assert not {remark.warning for remark in lumped_point(pump, at).warnings}
 
 
+def test_an_open_circuit_of_low_pressure_is_a_pump(tmp_path):
+    """Its inlet is that of a tank from the start, not the charged one of the pump that it is scaled from."""
+    assert load_pump(_written(tmp_path, circuit="open", pressure="20 bar")).pump.rated_pressure == 2e6
+
+
 def test_it_is_the_scaled_pump_of_the_same_facts(tmp_path):
     scant = tmp_path / "scant.toml"
     facts = 'displacement = "71 cm3"\npistons = 9\nrated_speed = "2600 rpm"\nrated_pressure = "350 bar"\n'

@@ -109,6 +109,23 @@ def test_overrides_stand_in_place_of_the_file():
         load_pump(BENCH, {"operating.speed": "1000 bar"})
 
 
+def test_an_override_replaces_what_else_states_the_same(tmp_path):
+    """A grade its viscosities, two viscosities the grade, an absolute pressure the gauge one; not each other."""
+    thin = {"oil.kinematic_viscosity_40C": "32 mm2/s", "oil.kinematic_viscosity_100C": "5.4 mm2/s"}
+    assert load_pump("ref90", thin).oil == load_pump("ref90", {"oil.grade": "ISO VG 32"}).oil
+    resolved = tmp_path / "resolved.toml"
+    resolved.write_text(resolved_toml(load_pump("ref90", thin)), "utf-8")
+    assert load_pump(resolved, {"oil.grade": "ISO VG 68"}).oil == load_pump("ref90").oil
+    absolute = load_pump("ref90", {"operating.inlet_pressure_abs": "2 bar"})
+    assert absolute.operating.inlet_pressure == 2e5 - STANDARD_ATMOSPHERE
+    for both in (
+        thin | {"oil.grade": "ISO VG 32"},
+        {f"operating.inlet_pressure{end}": "2 bar" for end in ("", "_abs")},
+    ):
+        with pytest.raises(InputFaults):
+            load_pump("ref90", both)
+
+
 # What is refused
 
 

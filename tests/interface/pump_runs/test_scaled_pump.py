@@ -112,12 +112,16 @@ def test_complete_pumps_are_as_they_are():
         (SCANT.format("60 cm3", 9).replace("ement", "ment"), {"pump.displacement", "pump.displacment"}),
         (SCANT.format("-60 cm3", 9), {"pump.displacement"}),
         (SCANT.format("60 cm3", 9).replace("46", "47"), {"oil.grade"}),
+        (SCANT.format("60 cm3", 3).replace("46", "47") + '[slippr]\n[piston]\nradial_clearance = "1 bar"\n',
+         {"pump.pistons", "oil.grade", "slippr", "piston.radial_clearance"}),
     ],
 )  # fmt: skip
 def test_faults_all_at_once(tmp_path, text, faults):
     with pytest.raises(InputFaults) as refused:
         _load(tmp_path, text)
-    assert faults <= {fault.path for fault in refused.value.faults}
+    found = [fault.path for fault in refused.value.faults]
+    assert faults <= set(found)
+    assert len(found) == len(set(found))
 
 
 def test_a_scaled_pump_runs_and_every_command_tells_what_it_takes(tmp_path, capsys):
