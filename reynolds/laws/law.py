@@ -26,7 +26,8 @@ def within(
     """The values as an array, all of them in [lowest, highest]: else an error of the kind, which a NaN raises too."""
     values = np.asarray(found, dtype=float)
     if not np.all((values >= lowest) & (values <= highest)):
-        span = f"{np.min(values):.6g} .. {np.max(values):.6g} {unit}"
+        least, most = f"{np.min(values):.6g}", f"{np.max(values):.6g}"
+        span = f"{least if least == most else f'{least} .. {most}'} {unit}"
         advice = f"; {remedy}" if remedy else ""
         raise kind(where, span, f"{lowest:.6g} .. {highest:.6g} {unit}{advice}")
     return values

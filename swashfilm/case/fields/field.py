@@ -35,10 +35,14 @@ _WORDS = ("and", "or", "not", "if", "else")
 
 @dataclass(frozen=True)
 class MeshData:
-    """Scalar data of a mesh file by name: at points (vertices,) and in cells (cells,), in SI units."""
+    """Scalar data of a mesh file by name: at points (vertices,) and in cells (cells,), in SI units.
+
+    unfit: names of data of several numbers each, or of none.
+    """
 
     point: Mapping[str, Array] = field(default_factory=dict)
     cell: Mapping[str, Array] = field(default_factory=dict)
+    unfit: tuple[str, ...] = ()
 
     def refined(self, finer: RefinedMesh) -> MeshData:
         """Return the same data on a finer mesh: interpolated at points, inherited by cells."""
@@ -174,8 +178,7 @@ def read_field(
         f"{dimension.si_unit} (text in quotes), or the name of data in the mesh file"
     )
     if isinstance(raw, bool) or not isinstance(raw, str):
-        nearest = f'"{raw} {dimension.si_unit}"' if isinstance(raw, (int, float)) else ""
-        raise QuantityError(repr(raw), expected, nearest)
+        raise QuantityError(repr(raw), expected, _quantity_meant(raw, dimension))
     text = raw.strip()
     if not text:
         raise QuantityError("empty text", expected)
@@ -206,7 +209,27 @@ def read_field(
         return Formula(parse_expression(text, variables, constants))
     except ExpressionError as reason:
         _refuse_units(text, dimension, (*variables, *constants))
+        _refuse_data(text, data)
         raise QuantityError(reason.found, reason.expected, reason.nearest or with_point(text)) from None
+
+
+def _quantity_meant(raw: object, dimension: Dimension) -> str:
+    """Return a bare number with the unit that it may lack; empty for anything else."""
+    if isinstance(raw, bool) or not isinstance(raw, (int, float)):
+        return ""
+    try:
+        parse_quantity(raw, dimension)
+    except QuantityError as reason:
+        return reason.nearest.replace("'", '"')  # as a case file has it
+    return ""
+
+
+def _refuse_data(text: str, data: MeshData) -> None:
+    """Raise QuantityError for a formula of data of the mesh file."""
+    for name in _NAME.findall(text):
+        if name in (*data.point, *data.cell):
+            found = f"'{text}', a formula of {name}, which is data of the mesh file"
+            raise QuantityError(found, "a formula without it, or its name alone: other data belong into the file", name)
 
 
 def _refuse_units(text: str, dimension: Dimension, names: Sequence[str]) -> None:
@@ -229,14 +252,12 @@ def mesh_data(path: Path, film_mesh: FilmMesh) -> MeshData:
     mesh = film_mesh.mesh
     kind = "triangle" if mesh.t.shape[0] == 3 else "quad"
     blocks = [index for index, block in enumerate(raw.cells) if block.type == kind]
-    return MeshData(
-        {name: scalar for name, values in raw.point_data.items() if (scalar := _scalar(values)) is not None},
-        {
-            name: scalar
-            for name, parts in raw.cell_data.items()
-            if (scalar := _scalar(np.concatenate([parts[index] for index in blocks]))) is not None
-        },
+    cells = {name: np.concatenate([parts[index] for index in blocks]) for name, parts in raw.cell_data.items()}
+    point, cell = (
+        {name: scalar for name, values in of.items() if (scalar := _scalar(values)) is not None}
+        for of in (raw.point_data, cells)
     )
+    return MeshData(point, cell, tuple(sorted({*raw.point_data, *cells} - {*point, *cell})))
 
 
 def _scalar(values: Array) -> Array | None:
@@ -247,6 +268,9 @@ def _scalar(values: Array) -> Array | None:
 
 
 def _no_such_data(name: str, data: MeshData, constants: Mapping[str, float]) -> QuantityError:
+    if name in data.unfit:
+        found = f"'{name}', data of the mesh file that are not one number a point or cell"
+        return QuantityError(found, "data of one number each, such as a component under a name of its own")
     names = [*data.point, *data.cell]
     known = (*PLACE, *CONSTANTS, *constants)
     if not names:

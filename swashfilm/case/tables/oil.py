@@ -209,7 +209,8 @@ def read_oil(oil: Table, *, with_viscosity: bool, with_heat: bool) -> FilmOilSec
         try:
             stated.dynamic_viscosity  # noqa: B018
         except InputError as reason:
-            oil.fault("temperature", reason.found, f"{reason.expected} of {reason.where}")
+            key = reason.where.removeprefix("oil ")
+            oil.fault(key if key in GRADE_KEYS else "temperature", reason.found, reason.expected)
     return stated if len(oil.faults) == before else None
 
 

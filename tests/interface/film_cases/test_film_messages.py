@@ -90,3 +90,36 @@ def test_check_sets_keys_as_the_commands_do(tmp_path, capsys):
     assert main(["check", str(tmp_path / "case.toml"), "--set", "film.thickness=12 bar"]) == 2
     assert main(["check", "ref90", "--set", "piston.radial_clearance=13um"]) == 0
     assert 'radial_clearance = "13 um"' in capsys.readouterr().out
+
+
+def test_data_of_a_mesh_file_that_are_no_thickness_are_named(tmp_path):
+    """A vector, and a formula of data: both are in the file, so that they are no unknown names."""
+    heights = {"h": np.full(4, 1e-5), "slope": np.ones((4, 3))}
+    meshio.write_points_cells(tmp_path / "film.vtu", SQUARE, [("quad", np.arange(4)[None])], point_data=heights)
+    vector = fault_of(tmp_path, thickness="slope")
+    assert vector.found == "'slope', data of the mesh file that are not one number a point or cell"
+    formula = fault_of(tmp_path, thickness="1.1*h")
+    assert formula.found == "'1.1*h', a formula of h, which is data of the mesh file"
+    assert formula.nearest == "h"
+
+
+def test_a_number_without_unit_gets_the_unit_that_people_read(tmp_path):
+    text = CASE.replace("MESH", BUILT).replace('"30 mPa s"', "30").replace("outer =", "left =")
+    (tmp_path / "case.toml").write_text(text, "utf-8")
+    with pytest.raises(InputFaults) as raised:
+        load_case(tmp_path / "case.toml")
+    (fault,) = raised.value.faults
+    assert fault.nearest == '"30 mPa s"'
+
+
+@pytest.mark.parametrize(("at_40", "at_100"), [("0.66 mm2/s", "0.29 mm2/s"), ("6.8 mm2/s", "46 mm2/s")])
+def test_a_viscosity_that_is_no_oil_is_told_at_its_key(tmp_path, at_40, at_100):
+    oil = f'[oil]\nkinematic_viscosity_40C = "{at_40}"\nkinematic_viscosity_100C = "{at_100}"\n'
+    oil += 'density = "860 kg/m3"\ntemperature = "40 degC"\n'
+    text = CASE.replace("MESH", BUILT).replace('viscosity = "30 mPa s"\n', "").replace("outer =", "left =")
+    (tmp_path / "case.toml").write_text(text + oil, "utf-8")
+    with pytest.raises(InputFaults) as raised:
+        load_case(tmp_path / "case.toml")
+    (fault,) = raised.value.faults
+    assert fault.path == "oil.kinematic_viscosity_100C"
+    assert fault.found == at_100

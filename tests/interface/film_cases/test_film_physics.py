@@ -245,10 +245,11 @@ def test_a_film_that_warms_itself_is_told(read):
 
 
 def test_a_film_hotter_than_its_oil_is_no_number(read):
-    from reynolds import InputError
+    """The case is well stated: no film is found for it."""
+    from reynolds import NotConverged
 
     hot = read(GRADE.replace('"1 m/s"', '"60 m/s"').replace('"10 um"', '"3 um"') + WALLS.replace("50 degC", "140 degC"))
-    with pytest.raises(InputError) as refused:
+    with pytest.raises(NotConverged) as refused:
         solve_case(hot)
     for word in ("oil temperature", "a lower speed"):
         assert word in str(refused.value)

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from reynolds.errors import InputError
+from reynolds.errors import FilmNotConverged, InputError
 from reynolds.fem.space import FilmSpace
 from reynolds.numerics.arrays import Array
 from reynolds.problem import FilmProblem, FilmSolution
@@ -39,6 +40,19 @@ def heat_of(found: Found) -> FilmTemperature | None:
     return found.heat if isinstance(found, Coupled) else None
 
 
+class _BeyondLaw(InputError):
+    """A temperature or pressure of the film beyond the range of the oil's laws."""
+
+
+@contextmanager
+def _no_film() -> Iterator[None]:
+    """Raise FilmNotConverged for a film beyond the range of its oil: the case is well stated, its film is not found."""
+    try:
+        yield
+    except _BeyondLaw as reason:
+        raise FilmNotConverged(str(reason), _OIL_REMEDY) from None
+
+
 @dataclass(frozen=True)
 class OilSolver:
     """Solver of films of one case on one space with its oil; `heat` None: isothermal."""
@@ -50,8 +64,12 @@ class OilSolver:
     def solve(self, problem: FilmProblem, start: Found | None = None) -> Found:
         """Return the film of `problem`, started from `start`.
 
-        Raises FilmNotConverged, and InputError where the oil is beyond the range of its laws.
+        Raises FilmNotConverged, also where a warm film is beyond the range of its oil's laws.
         """
+        with _no_film():
+            return self._solved(problem, start)
+
+    def _solved(self, problem: FilmProblem, start: Found | None) -> Found:
         stated, warm = self.stated, start if isinstance(start, Coupled) else None
         shear = stated.oil.shear_thinning if stated.oil else None
         if self.heat is not None:
@@ -69,7 +87,8 @@ class OilSolver:
     ) -> Iterator[FilmInstant[Found]]:
         """Yield the film in time, as `reynolds.solve.transient.march_with`; it starts at the inlet temperature."""
         if self.heat is None:
-            return march_with(self._step, problem_at, end, step, held=held)
+            yield from march_with(self._step, problem_at, end, step, held=held)
+            return
         stated = self.stated
         assert stated.thermal is not None
         assert stated.oil is not None
@@ -78,7 +97,8 @@ class OilSolver:
             shear=stated.oil.shear_thinning or newtonian, count=stated.thermal.levels, solver=self.solver,
             held=held,
         )  # fmt: skip
-        return cast("Iterator[FilmInstant[Found]]", found)
+        with _no_film():
+            yield from cast("Iterator[FilmInstant[Found]]", found)
 
     def _step(self, problem: FilmProblem, last: Found | None) -> Found:
         return from_last_or_anew(partial(self.solve, problem), last)
@@ -106,6 +126,6 @@ def _viscosity(stated: FilmStatement) -> ThermalViscosity:
             cold = oil.at_temperature(temperature, at_oil_temperature)
             return np.asarray(oil.viscosity_over_pressure(pressure, cold)[0])
         except InputError as reason:
-            raise InputError(reason.where, reason.found, f"{reason.expected}: {_OIL_REMEDY}") from None
+            raise _BeyondLaw(reason.where, reason.found, reason.expected) from None
 
     return viscosity
