@@ -112,3 +112,11 @@ def test_the_names_of_the_lines_stand_below_each_other(tmp_path):
     legend = section_figure(found).axes[-2].get_legend()
     assert legend._ncols == 1
     assert len(legend.get_texts()) == 2
+
+
+def test_a_cut_along_a_held_edge_is_level(tmp_path):
+    """The highest pressure of a ring is that of its inner edge: round-off along the edge is no wave."""
+    _, found = solved(RING.replace('"10 um"', '"1e-5 + where(abs(phi) < 0.2, 2e-5, 0)"'), tmp_path)
+    pressure, thickness = section_figure(found).axes[1], section_figure(found).axes[3]
+    assert pressure.get_ylim()[0] < 0.6 < 1.4 < pressure.get_ylim()[1]  # MPa; from 1 to 0 along the radius
+    assert thickness.get_ylim()[1] < 40.0

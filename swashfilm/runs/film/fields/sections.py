@@ -30,6 +30,8 @@ INSET = 1e-6
 """Distance from the film's edge, as share of its size, of a cut along it: points on the edge may count as outside."""
 ALIKE = 1e-6
 """Relative difference of two film thicknesses below which both are the least."""
+LEVEL = 1e-3
+"""Range of a line, as share of the largest in its row, below which it is drawn level."""
 HIGHEST, LEAST = "highest pressure", "least film"
 PLACES = {HIGHEST: "the highest pressure (filled mark)", LEAST: "the least film (hollow mark)"}
 LOOKS = {HIGHEST: ("#3c7a8c", "-", "full"), LEAST: ("#b5523b", "--", "none")}
@@ -127,6 +129,7 @@ def section_figure(found: Sequence[Section]) -> Figure:
             for one in (section for section in found if section.cut.words == words):
                 _draw(axes, one, field.in_unit(one.values[field.name]))
             axes.grid(visible=True, alpha=0.3)
+        _level(row)
         row[0].set_ylabel(title_in(field.words.partition(",")[0], field.unit))
     for axes, words in zip(panels[-1], cuts, strict=True):
         axes.set_xlabel(next(one.cut.title for one in found if one.cut.words == words))
@@ -148,6 +151,15 @@ def write_sections(path: Path, found: Sequence[Section]) -> None:
             *(Column(name.removesuffix("_cell"), values, units[name]) for name, values in joined.items()),
         ],
     )
+
+
+def _level(row: Sequence[Any]) -> None:
+    """Give panels of a row whose lines are level beside it the range of the row, in which round-off is no wave."""
+    spans = [axes.dataLim.intervaly for axes in row]
+    widest = max(np.ptp(span) for span in spans)
+    for axes, span in zip(row, spans, strict=True):
+        if np.ptp(span) < LEVEL * widest:
+            axes.set_ylim(np.mean(span) - 0.55 * widest, np.mean(span) + 0.55 * widest)
 
 
 def _draw(axes: Any, one: Section, values: Array) -> None:
