@@ -26,7 +26,7 @@ from swashfilm.runs.pump.scene.reliefs import gap_explorer
 from swashfilm.runs.pump.scene.view import pump_view
 from swashfilm.runs.pump.scene.views import PICTURE, TURNING
 from swashfilm.runs.pump.summary import chamber_numbers
-from swashfilm.runs.table.summary import TABLE_POINT_HEAD, table_point_rows
+from swashfilm.runs.table.summary import TABLE_POINT_HEAD, source_words, table_point_rows
 from system.inputs.shown import pressure_text, shown_in
 from system.inputs.units import LPM
 from system.pump.bench import EFFICIENCIES
@@ -94,6 +94,7 @@ def write_pump_page(folder: Path, figures: PumpFigures | None = None) -> Path:
         floating=drawn.floating,
         table_rows=list(table_point_rows(summary)) if "table" in summary else [],
         table_head=TABLE_POINT_HEAD,
+        table_source=source_words(summary) if "table" in summary else "",
         refinement=[refinement_head(found), *refinement_rows(found)] if (found := summary.get("refinement")) else [],
         ripple=ripple_rows(summary),
         steady=is_steady(summary),

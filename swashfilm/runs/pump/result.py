@@ -17,7 +17,7 @@ from swashfilm.runs.pump.floating import HEAD, floating_rows
 from swashfilm.runs.pump.headline.powers import gathered, power_parts
 from swashfilm.runs.pump.headline.ribbons import flow_diagram
 from swashfilm.runs.pump.page import efficiency_rows, headline_rows, pair_rows
-from swashfilm.runs.table.summary import TABLE_POINT_HEAD, table_point_rows
+from swashfilm.runs.table.summary import TABLE_POINT_HEAD, source_words, table_point_rows
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 from system.inputs.units import Dimension, QuantityError, parse_quantity
 
@@ -116,7 +116,7 @@ class PumpRun(Result):
         if found := summary.get("refinement"):
             tables.append(("On finer levels", [refinement_head(found), *refinement_rows(found)]))
         if "table" in summary:
-            title = f"Gaps by a table of the {summary['table']['source']} fidelity"
+            title = f"Gaps by a table of the {source_words(summary)}"
             tables.append((title, [TABLE_POINT_HEAD, *table_point_rows(summary)]))
         return tables
 

@@ -11,6 +11,7 @@ from system.films.parts import floating_parts
 from system.points.table.means import GAP_PAIRS
 from system.points.table.point import TablePoint, table_point
 from system.points.table.response_table import LARGE_ERROR, ResponseTable, axis_value, axis_words
+from system.points.table.sources import left_out
 from system.points.table.store import find_table, own_table
 from system.pump.operating import OperatingPoint
 
@@ -71,6 +72,13 @@ def _numbers_largest(found: TablePoint) -> dict[str, float]:
     """Return the largest error of runs by the table at its held-out points, by number."""
     numbers = found.table.numbers
     return {} if numbers is None else numbers.largest()
+
+
+def source_words(summary: Mapping[str, Any]) -> str:
+    """Return the fidelity that the table of a point condenses, with the film physics that it leaves out."""
+    table = summary["table"]
+    without = left_out(table["stated"])
+    return f"{table['source']} fidelity" + (f" without {', '.join(without)}" if without else "")
 
 
 def table_point_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:

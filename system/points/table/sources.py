@@ -34,6 +34,16 @@ class Source(Enum):
     FLOATING = "floating"
 
 
+LEFT_OUT, NOTHING = "left out: ", "nothing"
+"""Words before the film physics that a source leaves out, and that it leaves out none."""
+
+
+def left_out(stated: Mapping[str, str]) -> tuple[str, ...]:
+    """The film physics that the points of a solver leave out on request, of its `stated`."""
+    names = stated.get("physics", "").partition(LEFT_OUT)[2]
+    return () if names in ("", NOTHING) else tuple(names.split(", "))
+
+
 class PointSolver(Protocol):
     """Solver of one operating point: frozen data that can be sent to another process.
 
@@ -101,10 +111,10 @@ class FloatingSolver:
         """Inputs of its numbers."""
         options = self.options
         cells = (options.piston_cells, options.slipper_cells, options.block_cells)
-        left_out = [effect.value.replace("_", " ") for effect in options.physics.left_out]
+        without = [effect.value.replace("_", " ") for effect in options.physics.left_out]
         exact = options.accuracy
         return {
-            "physics": f"gaps float; left out: {', '.join(left_out) or 'nothing'}",
+            "physics": f"gaps float; {LEFT_OUT}{', '.join(without) or NOTHING}",
             "mesh": f"cells of piston, slipper, block {', '.join(f'{x} x {y}' for x, y in cells)}",
             "accuracy": f"{options.steps} angles a turn; a step errs by {exact.step:g} of the least film and "
             f"{exact.floor:g} m at most, a turn closes to {exact.closed:g} of the mean film; chamber pressure "

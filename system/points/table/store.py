@@ -21,7 +21,7 @@ from system.inputs.versions import version_fault
 from system.points.table.means import MEANINGS, OLDEST_TABLE, TABLE_FORMAT
 from system.points.table.pump_numbers import NUMBERS, NumbersError
 from system.points.table.response_table import Failed, ResponseTable, TableOrigin, axis_dimension, box_text, point_text
-from system.points.table.sources import Source, films_alone
+from system.points.table.sources import Source, films_alone, left_out
 from system.pump.operating import OperatingPoint
 from system.pump_file.file import resolved_toml
 from system.work.sampled_points import tables_folder
@@ -116,17 +116,16 @@ def _numbers(rows: Sequence[Mapping[str, Any]], response: Response) -> NumbersEr
 
 
 def find_table(pump: PumpDescription, point: OperatingPoint, folder: Path | None = None) -> ResponseTable:
-    """The kept table of a pump whose box contains a point: of the last source in `Source`, then with the most
-    points.
+    """The kept table of a pump whose box contains a point: of the last source in `Source`, then with the least film
+    physics left out, then with the most points.
 
     Raises InputFaults without such a table, with the boxes of the other tables.
     """
     tables = [read_table(path) for path in sorted(tables_folder(folder).glob(f"{pump_key(pump)}-*.json"))]
     fit = [table for table in tables if table.holds(pump, point)]
     if fit:
-        sources = list(Source)
-        return max(fit, key=lambda t: (sources.index(t.origin.source), len(t.response.learnt.points)))
-    boxes = " or ".join(box_text(table) for table in tables)
+        return max(fit, key=_fitness)
+    boxes = " or ".join(dict.fromkeys(box_text(table) for table in tables))
     if tables:
         fault = Fault("--fidelity table", point_text(point), f"a point in the box of a table: {boxes}")
     else:
@@ -137,6 +136,12 @@ def find_table(pump: PumpDescription, point: OperatingPoint, folder: Path | None
             "swashfilm table PUMP, with the same inlet and case pressure",
         )
     raise InputFaults("response table", [fault])
+
+
+def _fitness(table: ResponseTable) -> tuple[int, int, int]:
+    """A table's place among those of one box: larger is better."""
+    origin = table.origin
+    return list(Source).index(origin.source), -len(left_out(origin.stated)), len(table.response.learnt.points)
 
 
 def own_table(path: Path, pump: PumpDescription) -> ResponseTable:

@@ -11,6 +11,7 @@ import pytest
 
 from swashfilm.__main__ import main
 from swashfilm.runs.table.command import HELD, RANGES
+from swashfilm.runs.table.summary import source_words
 from system import load_pump, lumped_point, operating_point, resolved_toml
 from system.description.effects import PhysicsSection
 from system.inputs.sections.reader import section_of
@@ -88,7 +89,9 @@ def test_a_table_is_built_told_and_run(stand_in, tmp_path, capsys):
     assert found["table"]["points"] == {"learnt": 32, "held_out": 6}
     assert set(found["table"]["numbers_largest_error"]) == set(NUMBERS)
     assert set(found["table"]["film_thickness_min_m"]) == set(GAP_PAIRS)
-    assert "by a response table" in (run / "report.html").read_text()
+    assert "by a response table of the fixed fidelity</h2>" in (run / "report.html").read_text()
+    left = {"source": "floating", "stated": {"physics": "gaps float; left out: roughness, heat"}}
+    assert source_words({"table": left}) == "floating fidelity without roughness, heat"
 
     truth = lumped_point(PUMP, operating_point(PUMP))
     assert found["torque"]["shaft_Nm"] == pytest.approx(truth.bench.shaft_torque, rel=1e-3)

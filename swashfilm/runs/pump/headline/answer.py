@@ -23,6 +23,7 @@ from swashfilm.runs.pump.headline.powers import (
 )
 from swashfilm.runs.pump.headline.ribbons import flow_diagram
 from swashfilm.runs.pump.summary import chamber_numbers
+from swashfilm.runs.table.summary import source_words
 from system.description.gap import Gap
 from system.inputs.shown import pressure_text
 from system.inputs.units import LPM
@@ -170,13 +171,15 @@ def _listed(names: list[str]) -> str:
 
 
 def _film_words(summary: Mapping[str, Any]) -> Iterator[str]:
+    if summary["fidelity"] == Fidelity.TABLE.value:
+        yield f"The films come from a response table of the {source_words(summary)}."
+        return
     if not _floats(summary):
         yield {
             Fidelity.LUMPED: "The film thicknesses are those of the pump file, not computed: the fidelity floating "
             "computes them.",
             Fidelity.FIXED: "The films are solved at the positions of the pump file; the fidelity floating finds the "
             "positions at which the forces balance.",
-            Fidelity.TABLE: "The films come from a response table.",
         }[Fidelity(summary["fidelity"])]
         return
     thin = least_film(summary)

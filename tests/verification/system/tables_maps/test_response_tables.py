@@ -18,7 +18,7 @@ import pytest
 from bench_pump import BENCH
 from stand_in_films import ThinningFilms
 
-from gaps.response import Measure
+from gaps.response import Measure, Samples
 from reynolds import FilmNotConverged, InputError, NotConverged
 from system import InputFaults, Pair, PumpPoint, build_table, find_table, load_pump, operating_point, table_point
 from system.description.effects import PhysicsSection
@@ -27,10 +27,10 @@ from system.points.table.build import TableCase, point_at, table_axes
 from system.points.table.means import GAP_PAIRS, MEANINGS, mean_ratios
 from system.points.table.point import TablePoint
 from system.points.table.pump_numbers import numbers_error, pump_numbers
-from system.points.table.sources import FilmsSolver, Source, films_alone
+from system.points.table.sources import FilmsSolver, Source, films_alone, left_out
 from system.points.table.store import keep_table, own_table, pump_key, read_table, table_record
 from system.work.processes import process_pool
-from system.work.sampled_points import points_of
+from system.work.sampled_points import points_of, tables_folder
 
 PUMP = load_pump(BENCH)
 NAMES = list(MEANINGS)
@@ -209,6 +209,25 @@ def test_a_table_is_found_by_its_pump(table, folder, tmp_path):
         find_table(PUMP, operating_point(PUMP, delivery_pressure=60e6), folder)
     with pytest.raises(InputFaults, match="swashfilm table PUMP"):
         find_table(PUMP, point, tmp_path)
+
+
+def test_of_two_tables_the_one_that_leaves_out_less_is_taken(table, tmp_path):
+    """Also where it has fewer points, in either order of building."""
+    physics = "gaps float; left out: {}"
+    for name, without, points in (("a", "elastic walls, heat", 48), ("b", "nothing", 36), ("c", "roughness", 48)):
+        stated = dict(table.origin.stated) | {"physics": physics.format(without)}
+        learnt = table.response.learnt
+        response = replace(table.response, learnt=Samples(learnt.points[:points], learnt.values[:points]))
+        kept = replace(table, origin=replace(table.origin, source=Source.FLOATING, stated=stated), response=response)
+        keep_table(kept, tables_folder(tmp_path) / f"{pump_key(PUMP)}-{name}")
+    point = operating_point(PUMP, delivery_pressure=20e6)
+    found = find_table(PUMP, point, tmp_path)
+    assert found.origin.stated["physics"] == physics.format("nothing")
+    assert left_out(found.origin.stated) == ()
+    assert left_out({"physics": physics.format("elastic walls, heat")}) == ("elastic walls", "heat")
+    with pytest.raises(InputFaults) as refused:
+        find_table(PUMP, replace(point, delivery_pressure=60e6), tmp_path)
+    assert refused.value.faults[0].expected.count("shaft speed") == 1
 
 
 def test_effects_outside_the_films_act_beside_a_table(table, folder):
