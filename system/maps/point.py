@@ -21,7 +21,7 @@ from system.points.lumped import lumped_point
 from system.points.table.means import SolvedPoint, given_films
 from system.points.table.point import table_point
 from system.points.table.response_table import ResponseTable
-from system.points.table.sources import PointSolver
+from system.points.table.sources import PointSolver, fidelity_words
 from system.points.table.store import table_name
 from system.pump.chamber.turn import Gaps
 from system.pump.laws.friction_pairs import Pair
@@ -100,13 +100,18 @@ class TableSolver:
 
     @property
     def words(self) -> str:
-        """The fidelity that the table condenses."""
-        return f"{self.table.origin.source.value}, by response table"
+        """The fidelity that the table condenses, with the physics that it leaves out."""
+        return f"{fidelity_words(self.table.origin.source, self.table.origin.stated)}, by response table"
 
     @property
     def stated(self) -> Mapping[str, str]:
         """The table's whole record, by content."""
-        return {"fidelity": self.words, "table": table_name(self.table), **self.table.origin.stated}
+        origin = self.table.origin
+        return {
+            "fidelity": f"{origin.source.value}, by response table",
+            "table": table_name(self.table),
+            **origin.stated,
+        }
 
     def reads(self, pump: PumpDescription) -> PumpDescription:
         """All of it."""
@@ -131,13 +136,13 @@ class DirectSolver:
 
     @property
     def words(self) -> str:
-        """The fidelity."""
-        return f"{self.solver.source.value}, each point solved"
+        """The fidelity, with the physics that it leaves out."""
+        return f"{fidelity_words(self.solver.source, self.solver.stated)}, each point solved"
 
     @property
     def stated(self) -> Mapping[str, str]:
         """Inputs of the numbers besides pump and point."""
-        return {"fidelity": self.words, **self.solver.stated}
+        return {"fidelity": f"{self.solver.source.value}, each point solved", **self.solver.stated}
 
     def reads(self, pump: PumpDescription) -> PumpDescription:
         """All of it."""

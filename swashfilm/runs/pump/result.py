@@ -116,7 +116,7 @@ class PumpRun(Result):
         if found := summary.get("refinement"):
             tables.append(("On finer levels", [refinement_head(found), *refinement_rows(found)]))
         if "table" in summary:
-            title = f"Gaps by a table of the {source_words(summary)}"
+            title = f"Gaps by a table of the fidelity {source_words(summary)}"
             tables.append((title, [TABLE_POINT_HEAD, *table_point_rows(summary)]))
         return tables
 

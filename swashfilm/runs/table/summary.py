@@ -11,7 +11,7 @@ from system.films.parts import floating_parts
 from system.points.table.means import GAP_PAIRS
 from system.points.table.point import TablePoint, table_point
 from system.points.table.response_table import LARGE_ERROR, ResponseTable, axis_value, axis_words
-from system.points.table.sources import left_out
+from system.points.table.sources import Source, fidelity_words
 from system.points.table.store import find_table, own_table
 from system.pump.operating import OperatingPoint
 
@@ -76,9 +76,7 @@ def _numbers_largest(found: TablePoint) -> dict[str, float]:
 
 def source_words(summary: Mapping[str, Any]) -> str:
     """Return the fidelity that the table of a point condenses, with the film physics that it leaves out."""
-    table = summary["table"]
-    without = left_out(table["stated"])
-    return f"{table['source']} fidelity" + (f" without {', '.join(without)}" if without else "")
+    return fidelity_words(Source(summary["table"]["source"]), summary["table"]["stated"])
 
 
 def table_point_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:

@@ -44,6 +44,12 @@ def left_out(stated: Mapping[str, str]) -> tuple[str, ...]:
     return () if names in ("", NOTHING) else tuple(names.split(", "))
 
 
+def fidelity_words(source: Source, stated: Mapping[str, str]) -> str:
+    """The fidelity of a solver's points, with the film physics that they leave out."""
+    without = left_out(stated)
+    return source.value + (f" without {', '.join(without)}" if without else "")
+
+
 class PointSolver(Protocol):
     """Solver of one operating point: frozen data that can be sent to another process.
 

@@ -158,7 +158,7 @@ def test_the_answer_counts_chambers_of_the_less_common_kinds(summary):
 @pytest.mark.parametrize(
     ("fidelity", "words"),
     [
-        ("table", "response table of the floating fidelity without elastic walls, heat."),
+        ("table", "response table of the fidelity floating without elastic walls, heat."),
         ("fixed", "positions of the pump file"),
     ],
 )

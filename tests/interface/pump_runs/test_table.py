@@ -83,15 +83,15 @@ def test_a_table_is_built_told_and_run(stand_in, tmp_path, capsys):
 
     run = tmp_path / "run"
     assert main(["run", "ref90", "--fidelity", "table", "-o", str(run)]) == 0
-    assert "Gaps by a table of the fixed fidelity" in capsys.readouterr().out
+    assert "Gaps by a table of the fidelity fixed" in capsys.readouterr().out
     found = json.loads((run / "summary.json").read_text())
     assert found["fidelity"] == "table"
     assert found["table"]["points"] == {"learnt": 32, "held_out": 6}
     assert set(found["table"]["numbers_largest_error"]) == set(NUMBERS)
     assert set(found["table"]["film_thickness_min_m"]) == set(GAP_PAIRS)
-    assert "by a response table of the fixed fidelity</h2>" in (run / "report.html").read_text()
+    assert "by a response table of the fidelity fixed</h2>" in (run / "report.html").read_text()
     left = {"source": "floating", "stated": {"physics": "gaps float; left out: roughness, heat"}}
-    assert source_words({"table": left}) == "floating fidelity without roughness, heat"
+    assert source_words({"table": left}) == "floating without roughness, heat"
 
     truth = lumped_point(PUMP, operating_point(PUMP))
     assert found["torque"]["shaft_Nm"] == pytest.approx(truth.bench.shaft_torque, rel=1e-3)

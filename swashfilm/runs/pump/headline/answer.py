@@ -172,7 +172,7 @@ def _listed(names: list[str]) -> str:
 
 def _film_words(summary: Mapping[str, Any]) -> Iterator[str]:
     if summary["fidelity"] == Fidelity.TABLE.value:
-        yield f"The films come from a response table of the {source_words(summary)}."
+        yield f"The films come from a response table of the fidelity {source_words(summary)}."
         return
     if not _floats(summary):
         yield {

@@ -18,8 +18,10 @@ from system.maps.data import LOSSES, best_points, map_data, warning_counts
 from system.maps.duty import Cycle, duty
 from system.maps.interpolation import MapInterpolant, axis_spline, check_points, fresh_error, left_out_error, weights
 from system.maps.plan import MapAxis, MapInput
-from system.maps.point import LumpedSolver, MapWork, point_numbers
+from system.maps.point import DirectSolver, LumpedSolver, MapWork, point_numbers
 from system.maps.usual_levels import usual_axes
+from system.points.floating_gaps import FloatingOptions
+from system.points.table.sources import FloatingSolver
 from system.pump.efficiency import EfficiencyDefinition
 from system.work.tasks import PartStatus, done_part
 
@@ -329,3 +331,11 @@ def test_maps_of_other_levels_meet_in_their_common_box():
     far = solved((MapAxis(MapInput.PRESSURE, (40e6, 41e6, 42e6)),))
     with pytest.raises(InputFaults, match="delivery pressure"):
         compare(solved(), far, (None, None))
+
+
+def test_a_map_names_the_film_physics_that_it_leaves_out():
+    """So two maps of one pump by other physics are told apart; the content of their points is as ever."""
+    whole, rigid = (DirectSolver(FloatingSolver(own), 60.0) for own in (FloatingOptions(), FloatingOptions().rigid))
+    assert whole.words == "floating, each point solved"
+    assert rigid.words == "floating without pressure viscosity, elastic walls, heat, each point solved"
+    assert rigid.stated["fidelity"] == whole.stated["fidelity"] == whole.words
