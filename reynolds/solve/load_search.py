@@ -25,8 +25,7 @@ MOLECULE = 1e-9  # m, of an oil: no thinner gap holds a film
 USUAL_GAP = 1e-4  # of the extent, where the shape is flat
 SOFT_START = 0.7  # first place between elastic walls: unit steps from there do not meet a zero gap
 LEAST_STEP, MOST_STEP = 1e-3, 2.5  # of the logarithm of the least gap
-LEAST_SHARE = 0.2  # of the least gap that a step may leave
-DIFFERENCE = 1e-4  # of the least gap, for slopes by differences
+DIFFERENCE = 1e-4  # of the logarithm of the least gap, and of the rise over it, for slopes by differences
 
 Solve = Callable[[FilmProblem], FilmSolution]
 
@@ -90,8 +89,8 @@ def carry_load(problem: FilmProblem, load: RigidLoad, solve: Solve | None = None
     search = _LoadSearch(problem, load, solve or _warmed(problem))
     for lean in search.leans():
         try:
-            found = search.one_freedom(lean)
-            found = found if search.free == [0] else search.newton(found.position)
+            place, found = search.one_freedom(lean)
+            found = found if search.free == [0] else search.newton(place, lean)
         except _Nowhere:
             continue
         return LoadedFilm(found.position, found.solution, *found.supported, found.rest, search.films)
@@ -115,12 +114,17 @@ class _Nowhere(Exception):
 
 @dataclass(frozen=True)
 class _Tried:
-    """A film at a position: supported load (N, N m), residuals that are to vanish, least gap by its shape (m)."""
+    """A film at a position: supported load (N, N m), residuals that are to vanish, least gap by its shape (m).
+
+    aims: the logarithm of the force over the load, and how far it acts from its place, over the film's reach; infinite
+    for a film without force. The first hardly depends on the tilts and the second hardly on the separation.
+    """
 
     position: Position
     solution: FilmSolution
     supported: tuple[float, float, float]
     misses: Array
+    aims: Array
     gap: float
 
     @property
@@ -173,7 +177,7 @@ class _LoadSearch:
         solution = self._solve(replace(self._problem, film=film))
         supported = _supported(solution)
         gap = float((self._shape + position.of(self._x, self._y)).min())
-        tried = _Tried(position, solution, supported, self._misses(supported), gap)
+        tried = _Tried(position, solution, supported, self._misses(supported), self._aims(supported), gap)
         if self._best is None or tried.rest < self._best.rest:
             self._best = tried
         return tried
@@ -187,6 +191,15 @@ class _LoadSearch:
             misses += [] if wanted is None else [(moment - wanted) / (load.force * self.reach)]
         return np.array(misses)
 
+    def _aims(self, supported: tuple[float, float, float]) -> Array:
+        """Logarithm of force over load, and distances of the force from its place over the film's reach."""
+        load, (force, moment_x, moment_y) = self._load, supported
+        wanted = [(moment_y, load.moment_y), (moment_x, load.moment_x)]
+        arms = [(moment, there / load.force) for moment, there in wanted if there is not None]
+        if force <= 0.0:
+            return np.full(1 + len(arms), np.inf)
+        return np.array([np.log(force / load.force), *((moment / force - at) / self.reach for moment, at in arms)])
+
     def _leaning(self, place: float, lean: tuple[float, float]) -> Position:
         """Position of least gap scale exp(place); between elastic walls 2 scale sinh(place), which may overlap."""
         gap = self._scale * np.exp(place)
@@ -196,8 +209,8 @@ class _LoadSearch:
         tilted = self._shape + slope_x * self._x + slope_y * self._y
         return Position(float(gap - tilted.min()), float(slope_x), float(slope_y))
 
-    def one_freedom(self, lean: tuple[float, float]) -> _Tried:
-        """The film that bears the force alone; raises _Nowhere."""
+    def one_freedom(self, lean: tuple[float, float]) -> tuple[float, _Tried]:
+        """Place and film that bears the force alone; raises _Nowhere."""
         (a, one), (b, two) = self._bracket(lean)
         f_a, f_b = one.misses[0], two.misses[0]
         while abs(f_b) > TOLERANCE:
@@ -211,7 +224,7 @@ class _LoadSearch:
             else:
                 f_a *= 0.5
             b, f_b = place, two.misses[0]
-        return two
+        return b, two
 
     def _bracket(self, lean: tuple[float, float]) -> tuple[tuple[float, _Tried], tuple[float, _Tried]]:
         """Places of less and of more than the load, next to each other; raises _Nowhere without such places."""
@@ -243,63 +256,57 @@ class _LoadSearch:
         except (FilmNotConverged, InputError):
             return None
 
-    def newton(self, start: Position) -> _Tried:
-        """The film that bears force and moments; raises _Nowhere."""
-        here = self.at(start)
+    def newton(self, place: float, lean: tuple[float, float]) -> _Tried:
+        """The film that bears force and moments, from a place and tilts on; raises _Nowhere.
+
+        Unknowns are the place and the free tilts of `_leaning`, of which the force's place follows the tilts and the
+        logarithm of the force the place, both nearly linear.
+        """
+        at, here = np.array([place, *lean])[self.free], self.at(self._leaning(place, lean))
         slopes: Array | None = None
         while here.rest > TOLERANCE:
             if fresh := slopes is None:
-                slopes = self._slopes(here)
+                slopes = self._slopes(at, here)
             assert slopes is not None
-            try:
-                new = self._downhill(here, -np.asarray(np.linalg.solve(slopes, here.misses)))
-            except np.linalg.LinAlgError:
-                raise _Nowhere from None
-            if new is None:
+            if (found := self._nearer(at, here, slopes)) is None:
                 if fresh:
                     raise _Nowhere
                 slopes = None
                 continue
-            moved = self._unknowns(new.position) - self._unknowns(here.position)
-            change = new.misses - here.misses - slopes @ moved
+            moved, new = found[0] - at, found[1]
+            change = new.aims - here.aims - slopes @ moved
             slopes = slopes + np.outer(change, moved) / (moved @ moved)
-            here = new
+            at, here = found
         return here
 
-    def _downhill(self, here: _Tried, step: Array) -> _Tried | None:
-        size = float(np.linalg.norm(here.misses))
+    def _nearer(self, at: Array, here: _Tried, slopes: Array) -> tuple[Array, _Tried] | None:
+        """The film after the step by `slopes`, or a share of it, from which the next step by them is shorter.
+
+        Steps count, not aims: a small change of the force's place asks for a long way over tilts (Deuflhard 1974).
+        """
+        try:
+            step = -np.asarray(np.linalg.solve(slopes, here.aims))
+        except np.linalg.LinAlgError:
+            raise _Nowhere from None
+        longest = float(np.max(np.abs(step) / (MOST_STEP, *(1.0 + np.abs(at[1:])))))
         for halvings in range(8):
-            share = 0.5**halvings
-            position = self._position(self._unknowns(here.position) + share * step)
-            if self._problem.walls is None and self._least(position) < LEAST_SHARE * here.gap:
+            share = 0.5**halvings / max(longest, 1.0)
+            new = self._tried(self._leaning_at(at + share * step))
+            if new is None or not np.all(np.isfinite(new.aims)):
                 continue
-            new = self._tried(position)
-            if new is not None and np.linalg.norm(new.misses) < (1.0 - 1e-3 * share) * size:
-                return new
+            if np.linalg.norm(np.linalg.solve(slopes, new.aims)) < (1.0 - 1e-3 * share) * np.linalg.norm(step):
+                return at + share * step, new
         return None
 
-    def _slopes(self, here: _Tried) -> Array:
-        """Slopes of the residuals by the free unknowns (1/m), by differences."""
-        width = DIFFERENCE * (here.gap if self._problem.walls is None else self._scale)
-        columns = []
-        for k in range(len(self.free)):
-            beside = self._unknowns(here.position)
-            beside[k] += width
-            columns.append((self.at(self._position(beside)).misses - here.misses) / width)
-        return np.column_stack(columns)
+    def _slopes(self, at: Array, here: _Tried) -> Array:
+        """Slopes of the aims by place and free tilts, by differences."""
+        beside = at + DIFFERENCE * np.eye(len(at))
+        return np.column_stack([(self.at(self._leaning_at(one)).aims - here.aims) / DIFFERENCE for one in beside])
 
-    def _unknowns(self, position: Position) -> Array:
-        """Separation and free tilts as rises over the film's reach, m."""
-        every = (position.separation, position.slope_x * self.reach, position.slope_y * self.reach)
-        return np.array([every[k] for k in self.free])
-
-    def _position(self, unknowns: Array) -> Position:
+    def _leaning_at(self, unknowns: Array) -> Position:
         every = np.zeros(3)
         every[self.free] = unknowns
-        return Position(float(every[0]), float(every[1] / self.reach), float(every[2] / self.reach))
-
-    def _least(self, position: Position) -> float:
-        return float((self._shape + position.of(self._x, self._y)).min())
+        return self._leaning(float(every[0]), (float(every[1]), float(every[2])))
 
     def _searched(self) -> str:
         """Limits of the search in words, with those beyond which nothing is a film."""
@@ -323,8 +330,9 @@ class _LoadSearch:
         side = "that this shape can bear"
         if abs(best.misses[0]) > NEARLY:
             side = "above that" if best.misses[0] > 0.0 else "below that"
+        verb = "found that bears" if self.films >= MOST_FILMS else "bears"
         return FilmNotConverged(
-            f"no position of the walls bears {asked}; nearest after {self.films} films: {best.supported[0]:.6g} N"
+            f"no position of the walls {verb} {asked}; nearest after {self.films} films: {best.supported[0]:.6g} N"
             f"{moments} at separation {at.separation:.4g} m{tilts}; {self._searched()}",
             f"a load {side}, another shape or speed, or a load nearer to the middle of the film",
         )

@@ -40,7 +40,7 @@ def test_the_journal_bears_the_load_of_its_sommerfeld_number(tmp_path):
 
 @pytest.mark.parametrize("kind", ["piston", "slipper", "valve_plate"])
 def test_gaps_solve(kind, tmp_path):
-    assert sf.film(sf.new("film", kind, output=tmp_path / "mine.toml")).load > 0.0
+    assert sf.film(sf.new("film", kind, output=tmp_path / "mine.toml")).carried_load > 0.0
 
 
 def test_the_study_solves(tmp_path):

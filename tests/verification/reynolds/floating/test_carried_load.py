@@ -27,6 +27,7 @@ from reynolds import (
     winkler,
 )
 from reynolds.equation.rough_overlap import film_between
+from reynolds.solve import load_search
 
 LENGTH, WIDTH, VISCOSITY, SPEED = 0.01, 0.002, 0.03, 1.0
 SLIDING = (np.full((1, 1), SPEED), ZERO)
@@ -134,6 +135,37 @@ def test_a_flat_pad_on_a_pivot_finds_film_and_tilt(n, validation):
     )  # fmt: skip
 
 
+@pytest.mark.parametrize("pivot", [0.51, 0.56, 0.58, 0.62])
+@pytest.mark.parametrize("load", [2.5, 25.0, 250.0])
+def test_a_pad_finds_the_same_film_whatever_its_own_slope(pivot, load):
+    """A slope of the shape is only another start: tilt and film are those of a flat pad."""
+    asked = RigidLoad(load, moment_y=-load * pivot * LENGTH)
+    flat, sloped = (
+        carry_load(
+            _problem(_space(), lambda x, y, rise=rise: rise * (1.0 - x / LENGTH), velocity_moving=SLIDING), asked
+        )
+        for rise in (0.0, 2e-6)
+    )
+    assert max(flat.rest, sloped.rest) < 1e-6
+    assert max(flat.films, sloped.films) < 60
+    thinnest = loads(flat.solution).film_thickness_min
+    assert loads(sloped.solution).film_thickness_min == pytest.approx(thinnest, rel=1e-4)
+    assert sloped.position.slope_x - 2e-6 / LENGTH == pytest.approx(flat.position.slope_x, abs=1e-4 * thinnest / LENGTH)
+
+
+@pytest.mark.parametrize("aside", [0.0, 0.02])
+def test_a_square_pad_finds_both_tilts(aside):
+    """The force acts beside the middle of the motion, and across it: both tilts are large beside the film."""
+    space = film_space(rectangle((LENGTH, LENGTH), (16, 16), origin=(-LENGTH / 2, -LENGTH / 2)))
+    every = {name: Held(0.0) for name in ("left", "right", "bottom", "top")}
+    shape = _problem(space, lambda x, y: 2e-6 * (0.5 - x / LENGTH), velocity_moving=SLIDING)
+    moments = (50.0 * aside * LENGTH, -50.0 * 0.07 * LENGTH)
+    found = carry_load(replace(shape, boundary=every), RigidLoad(50.0, *moments))
+    assert found.rest < 1e-6
+    assert (found.moment_x, found.moment_y) == pytest.approx(moments, abs=1e-5 * 50.0 * LENGTH)
+    assert found.films < 60
+
+
 def test_a_square_pad_stays_level_across_its_motion():
     space = film_space(rectangle((LENGTH, LENGTH), (16, 16), origin=(-LENGTH / 2, -LENGTH / 2)))
     every = {name: Held(0.0) for name in ("left", "right", "bottom", "top")}
@@ -155,6 +187,13 @@ def test_what_no_position_bears_is_told_with_the_nearest():
     assert "a load above that" in str(raised.value)
     with pytest.raises(FilmInputError, match="above zero"):
         RigidLoad(-1.0)
+
+
+def test_a_search_that_ends_by_its_films_does_not_deny_a_position(monkeypatch):
+    monkeypatch.setattr(load_search, "MOST_FILMS", 5)
+    problem = _problem(_space(16), lambda x, y: 1e-5 * (1.0 - x / LENGTH), velocity_moving=SLIDING)
+    with pytest.raises(FilmNotConverged, match="no position of the walls found that bears 1 N; nearest after 5 films"):
+        carry_load(problem, RigidLoad(1.0))
 
 
 def test_the_search_reaches_its_limits_and_tells_them():
