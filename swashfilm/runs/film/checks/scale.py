@@ -35,4 +35,4 @@ def natural_flow(solution: FilmSolution) -> float:
     )
     conductance = float(np.sum(film.thickness**3 / (12.0 * film.viscosity) * area)) / total
     squeezed = float(np.abs(solution.storage_rate).sum())
-    return sliding / np.sqrt(total) + conductance * float(np.ptp(solution.pressure)) + squeezed
+    return float(sliding / np.sqrt(total)) + conductance * float(np.ptp(solution.pressure)) + squeezed

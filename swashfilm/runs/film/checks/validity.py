@@ -229,8 +229,8 @@ def _supply_warnings(study: FilmStudy) -> Iterator[Warned]:
     if study.gap is None and not study.history and least < LEAST_FILM_FRACTION:
         yield (
             "film_runs_dry",
-            f"the film fraction falls to {least:.2g} (limit {LEAST_FILM_FRACTION:g}): no oil reaches a part of the "
-            "film; is its inflow edge closed? A boundary that is not named is closed",
+            f"the film fraction falls to {max(least, 0.0):.2g} (limit {LEAST_FILM_FRACTION:g}): no oil reaches a part "
+            "of the film; is its inflow edge closed? A boundary that is not named is closed",
         )
     if problem.cavitation is not Cavitation.NONE and problem.cavitation_pressure < VACUUM:
         yield (
@@ -261,6 +261,15 @@ def _cavity_warnings(study: FilmStudy) -> Iterator[Warned]:
         yield (
             "film_builds_no_pressure",
             f"{share:.0%} of the film cavitates (limit {MOST_CAVITY:.0%}) and nowhere is it above the pressure of its "
-            f"boundaries, {pressure_text(given)}: it bears nothing of its own; is the sign of the velocity right? A "
-            "film has to become thinner along the motion of the wall that slides",
+            f"boundaries, {pressure_text(given)}: it bears nothing of its own; {_wrong_way(solution)}",
         )
+
+
+def _wrong_way(solution: FilmSolution) -> str:
+    """Return the cause to look for where a film builds no pressure: sliding or, between walls at rest, squeeze."""
+    film = solution.film
+    if any(np.any(part) for part in (*film.velocity_moving, *film.velocity_fixed)):
+        return (
+            "is the sign of the velocity right? A film has to become thinner along the motion of the wall that slides"
+        )
+    return "its walls move apart; is the sign of squeeze right? It is dh/dt, below zero where the film closes"
