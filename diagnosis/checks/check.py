@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -19,6 +19,8 @@ from system.inputs.channels import ChannelName
 
 MOST_POINTS = 1000
 """Of a table of steady points: a fit takes time as their number, tests of drift and place as its cube."""
+ROUGH, TOGETHER = 1.4, 3
+"""Scatter of every channel in multiples of the stated that is too large, and the channels from which it is a fault."""
 VARIED = 2.0
 """Ratio of flow over displacement ratio between points: more than leakage explains: the speed varied."""
 
@@ -76,6 +78,20 @@ def too_smooth(chi2: float, readings: int, least: float) -> DataNote | None:
         f"chi2 {chi2 / readings:.2g} per reading: they scatter by far less than their repeatability. Simulated or "
         "smoothed readings have no noise of their own; of measured ones, state the sigma that repeats show",
     )
+
+
+def too_rough(scatter: Mapping[ChannelName, float]) -> DataNote | None:
+    """Return the fault of readings all of which scatter more than stated about any smooth law of the inputs; else None.
+
+    Physics shows in some channels and is smooth; a repeatability stated too small shows in all and is not. Of one or
+    two channels it is a warning. scatter: in multiples of the repeatability, of channels with enough readings to tell.
+    """
+    if not scatter or min(scatter.values()) < ROUGH:
+        return None
+    sizes = ", ".join(f"{name.value} {size:.1f} times" for name, size in scatter.items())
+    kind = NoteKind.FAULT if len(scatter) >= TOGETHER else NoteKind.WARNED
+    text = f"readings scatter more than their stated repeatability about any smooth law of the inputs: {sizes}"
+    return DataNote(kind, None, (), f"{text}; state the sigma that repeats show")
 
 
 def with_notes(recording: Recording, notes: Iterable[DataNote]) -> Recording:

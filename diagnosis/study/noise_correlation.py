@@ -7,11 +7,19 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import solve_triangular
+from scipy.stats import norm
 
 from diagnosis.study.map_axes import smooth_shapes
 from diagnosis.study.model import Study
 from diagnosis.thresholds import MismatchLimits
 from reynolds.numerics.arrays import Array
+
+LEAST_FREE = 0.1
+"""Of a reading's noise, the part that a fit leaves at least where its residual counts."""
+ENOUGH_FREE = 10.0
+"""Readings beyond the fit from which a channel's scatter is estimated."""
+MEDIAN = float(norm.isf(0.25))
+"""Median of |r| in sigma."""
 
 
 def noise_correlation(study: Study, limits: MismatchLimits) -> tuple[float, ...]:
@@ -26,6 +34,7 @@ def noise_correlation(study: Study, limits: MismatchLimits) -> tuple[float, ...]
     if len(pairs) < limits.memory_pairs:
         return ()
     residual, left = _without_smooth_mismatch(study, limits)
+    residual = _clipped(residual, limits)
     expected, spread = left.of_pairs(pairs)
     scatter = max(1.0, float(residual @ residual) / float(left.diagonal.sum()))
     one, other = pairs.T
@@ -43,9 +52,23 @@ def noise_excess(study: Study, limits: MismatchLimits) -> Array:
     """
     residual, left = _without_smooth_mismatch(study, limits)
     channel, count = study.base.whitening.rows[:, 1], study.observations.values.shape[1]
-    squares, free = (np.bincount(channel, each, count) for each in (residual**2, left.diagonal))
+    squares, free = (np.bincount(channel, each, count) for each in (_clipped(residual, limits) ** 2, left.diagonal))
     scatter = np.sqrt(np.maximum(squares / np.maximum(free, 1.0), 1.0))
     return np.where(scatter > limits.excess, 1.0, scatter)
+
+
+def stated_scatter(study: Study, limits: MismatchLimits) -> Array:
+    """Scatter (C,) of half of each channel's readings about a smooth mismatch over the map, in units of their noise.
+
+    By the median, which a part of the map where the mismatch is not smooth does not move; 0 for a channel with too few
+    readings to tell.
+    """
+    residual, left = _without_smooth_mismatch(study, limits)
+    free, channel = left.diagonal, study.base.whitening.rows[:, 1]
+    sizes = np.abs(residual) / np.sqrt(np.maximum(free, LEAST_FREE))
+    count = study.observations.values.shape[1]
+    parts = [channel == at for at in range(count)]
+    return np.array([np.median(sizes[own]) / MEDIAN if free[own].sum() >= ENOUGH_FREE else 0.0 for own in parts])
 
 
 @dataclass(frozen=True)
@@ -74,14 +97,18 @@ class FitRemainder:
 
 
 def _without_smooth_mismatch(study: Study, limits: MismatchLimits) -> tuple[Array, FitRemainder]:
-    """Residual (n,) without a smooth mismatch over the map, clipped, and what is left so of any readings."""
+    """Residual (n,) without a smooth mismatch over the map, and what is left so of any readings."""
     base = study.base
     slopes = np.hstack([base.slopes, _smooth_columns(study, limits.smooth)])
     root = np.linalg.cholesky(slopes.T @ slopes + np.eye(slopes.shape[1]))
     columns = solve_triangular(root, slopes.T, lower=True).T
     offset = base.residual + base.slopes @ base.xi
     residual = offset - columns @ (columns.T @ offset)
-    return np.clip(residual, -limits.memory_clip, limits.memory_clip), FitRemainder(columns)
+    return residual, FitRemainder(columns)
+
+
+def _clipped(residual: Array, limits: MismatchLimits) -> Array:
+    return np.clip(residual, -limits.memory_clip, limits.memory_clip)
 
 
 def _pairs(study: Study, least: float) -> NDArray[np.int64]:

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from diagnosis.checks.check import too_rough
 from diagnosis.recording.model import DataNote, NoteKind, Recording
 from diagnosis.recording.series.quasi_steady import THERMOMETER
 from diagnosis.study.drift_course import course_departures, drift_courses, drift_parameters
@@ -15,7 +16,7 @@ from diagnosis.study.films.noise import BALANCED_NAMES, table_noise
 from diagnosis.study.inputs import assumed_parameters, bench_points, complete, in_time, measured
 from diagnosis.study.map_axes import scaled_axes, smooth_shapes
 from diagnosis.study.model import Study, study_of
-from diagnosis.study.noise_correlation import noise_correlation, noise_excess
+from diagnosis.study.noise_correlation import noise_correlation, noise_excess, stated_scatter
 from diagnosis.study.readings import observations
 from diagnosis.study.scaled.null_place import null_place
 from diagnosis.study.traces.bench import traced_bench
@@ -94,6 +95,8 @@ def prepare(
             usable, notes=(*usable.notes, *_excess_notes(channels, excess, thresholds.mismatch.told_excess))
         )
         bare = study_of(usable, bench, found, axes, (), thresholds, about)
+    else:
+        usable = replace(usable, notes=(*usable.notes, *_rough_notes(bare, thresholds)))
     memory = () if found.correlation else noise_correlation(bare, thresholds.mismatch)
     if memory:
         text = f"residuals persist from point to point: noise is assumed correlated by {memory[0]:.2f} in the order"
@@ -154,6 +157,13 @@ def _excess_notes(channels: tuple[ChannelName, ...], excess: Array, least: float
         if factor > least:
             text = f"the points scatter {factor:.2g} times as much as the samples' noise allows: this scatter is used"
             yield DataNote(NoteKind.NOTED, channel, (), text)
+
+
+def _rough_notes(bare: Study, thresholds: Thresholds) -> tuple[DataNote, ...]:
+    """The note on a stated repeatability that is too small for the scatter of the readings, if it is."""
+    scatter = zip(bare.channels, stated_scatter(bare, thresholds.mismatch).tolist(), strict=True)
+    found = too_rough({channel: size for channel, size in scatter if size > 0.0})
+    return () if found is None else (found,)
 
 
 def _drift_notes(courses: Mapping[ChannelName, Array], recording: Recording) -> Iterator[DataNote]:

@@ -86,7 +86,8 @@ def _fit_words(summary: Mapping[str, Any], residuals: Sequence[Row]) -> Iterator
     yield f"The fitted pump meets {summary['readings']} readings at {summary['points']} points: {met} (rms)."
     beyond = [f"{words} ({pull:.1f} times)" for words, _, _, pull in misfits if pull > WITHIN]
     if beyond:
-        yield f"Beyond the scatter of its meter is {listed(beyond)}: the model lacks something there."
+        told = f"Beyond the scatter of its meter is {listed(beyond)}"
+        yield f"{told}: the model lacks something there, or that scatter is stated too small."
     else:
         yield "That is within the scatter of the meters."
 

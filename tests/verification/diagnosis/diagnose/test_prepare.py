@@ -9,16 +9,19 @@ import numpy as np
 import pytest
 from bench_pump import BENCH
 
-from diagnosis import Recording, Study, load_thresholds, prepare, read_recording
+from diagnosis import NoteKind, Recording, Study, load_thresholds, prepare, read_recording
+from diagnosis.checks.check import too_rough
 from diagnosis.detect.mismatch import detect
+from diagnosis.study.acceptance import refuse_too_rough
 from diagnosis.study.prepare import meter_parameters
 from diagnosis.study.traces.misfits import port_events
 from diagnosis.verdict.locate import locate
 from reynolds import Array, InputError
-from system import ChannelName, load_pump, tolerances
+from system import ChannelName, InputFaults, load_pump, tolerances
 from system.bench.outputs import shear_torques
 
 LIMITS = load_thresholds()
+Q = ChannelName.Q_CASE
 RECORDINGS = Path(__file__).parents[4] / "examples" / "recordings"
 PUMP = load_pump(BENCH)
 
@@ -55,6 +58,41 @@ def test_a_short_circuit_lies_in_the_cross_flow() -> None:
     assert found.strongest[0][0].entry.id.value in ("port_short_circuit", "laminar_cross_leak")
     assert set(place.channels) == {ChannelName.Q_OUT, ChannelName.Q_IN}
     assert place.components[0][0].value == "cross_flow"
+
+
+def _with_sigmas(recording: Recording, share: float) -> Recording:
+    """The recording with a share of the repeatability of every channel."""
+    stated = [replace(one, sigma=share * one.sigma, sigma_relative=share * one.sigma_relative)
+              for one in recording.channels]  # fmt: skip
+    return replace(recording, channels=tuple(stated))
+
+
+@pytest.mark.parametrize(("name", "share", "refused"), [("open-01", 1.0, False), ("open-06", 1.0, False),
+                                                        ("open-01", 0.5, True), ("open-06", 0.2, True)])  # fmt: skip
+def test_a_repeatability_stated_too_small_is_a_fault_and_no_unknown_physics(
+    name: str, share: float, refused: bool
+) -> None:
+    """Noise of twice the stated sigma in every channel was once, very surely, an effect that no catalogue has."""
+    recording = _with_sigmas(replace(read_recording(RECORDINGS / name), traces=()), share)
+    study = prepare(PUMP, recording, tolerances(PUMP)[0], LIMITS, ())
+    faults = [note.text for note in study.recording.notes if note.kind is NoteKind.FAULT]
+    assert bool(faults) is refused
+    if refused:
+        assert "Q_out" in faults[0]
+        with pytest.raises(InputFaults, match="repeatability"):
+            refuse_too_rough(study)
+
+
+def test_of_one_channel_the_scatter_is_a_warning() -> None:
+    """An effect without a smooth course may be in one channel; in all of them none is."""
+    assert too_rough({Q: 3.0, ChannelName.TORQUE: 1.0, ChannelName.Q_OUT: 2.0}) is None
+    assert too_rough({}) is None
+    one = too_rough({Q: 3.0})
+    every = too_rough({Q: 3.0, ChannelName.TORQUE: 1.6, ChannelName.Q_OUT: 2.0})
+    assert one is not None
+    assert every is not None
+    assert (one.kind, every.kind) == (NoteKind.WARNED, NoteKind.FAULT)
+    assert "Q_case 3.0 times, torque 1.6 times, Q_out 2.0 times" in every.text
 
 
 def test_a_recording_without_simulated_outputs_is_refused() -> None:
