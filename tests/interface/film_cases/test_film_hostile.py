@@ -212,7 +212,7 @@ def test_a_wedge_the_wrong_way_round_is_told(tmp_path):
     opening = CASE.replace('"1 m/s"', '"-1 m/s"')
     assert "film_builds_no_pressure" in named(summary_of(tmp_path / "case.toml", opening))
     assert not named(summary_of(tmp_path / "closing.toml", CASE)) & {"film_builds_no_pressure", "film_without_supply"}
-    apart = CASE.replace('velocity = ["1 m/s", "0 m/s"]', 'squeeze = "1 mm/s"')
+    apart = CASE.replace('velocity = ["1 m/s", "0 m/s"]', 'squeeze = "10 mm/s"\ncavitation_pressure = "-0.9 bar"')
     (text,) = (
         one["text"]
         for one in summary_of(tmp_path / "apart.toml", apart)["warnings"]
