@@ -63,14 +63,19 @@ def paper_points() -> KeptPoints:
     return KeptPoints(cache_folder() / "paper" / "points", frozenset({PartStatus.SOLVED}))
 
 
-def about(pump: PumpDescription) -> str:
-    """Return a remark for a pump that does not represent the paper's; empty otherwise."""
-    if pump == load_pump(PAPERS_OWN):
-        return ""
-    return (
-        f"The statements are about the paper's pump, which ref90 represents. For {pump.name} the verdicts compare "
-        "two different pumps; they do not test the statements."
-    )
+def about(asked: ReproduceCase) -> str:
+    """Return remarks on a pump that does not represent the paper's, and on film physics left out; empty without."""
+    own, remarks = load_pump(PAPERS_OWN), []
+    if asked.pump != own:
+        named = asked.pump.name if asked.pump.name != own.name else f"{own.name} with other values"
+        remarks.append(
+            f"The statements are about the paper's pump, which {own.name} represents. For {named} the verdicts compare "
+            "two different pumps; they do not test the statements."
+        )
+    without = [effect.value.replace("_", " ") for effect in asked.floating.physics.left_out]
+    if asked.fidelity is PaperFidelity.FLOATING and without:
+        remarks.append(f"The floating films leave out: {', '.join(without)}.")
+    return " ".join(remarks)
 
 
 def run_reproduce(asked: ReproduceCase, executor: Executor, folder: Path, report: Report) -> dict[str, Any]:
@@ -86,7 +91,7 @@ def run_reproduce(asked: ReproduceCase, executor: Executor, folder: Path, report
     summary = {
         **headed("reproduction"),
         "pump": asked.pump.name,
-        "about": about(asked.pump),
+        "about": about(asked),
         "fidelity": asked.fidelity.value,
         "verdicts": _verdicts(results, asked.fidelity),
         "figures": [figure_row(result) for result in results],

@@ -17,7 +17,7 @@ from diagnosis import checked_recording
 from swashfilm.__main__ import main
 from swashfilm.runs.reproduce.files import claim_rows
 from swashfilm.runs.reproduce.plots import panel_pictures
-from swashfilm.runs.reproduce.run import about, paper_points
+from swashfilm.runs.reproduce.run import ReproduceCase, about, paper_points
 from system import FloatingOptions, load_pump
 from system.paper.figure import Figure
 from system.paper.figures.floating_films import FLOATING_RATIOS, floating_fig8, floating_fig9
@@ -112,7 +112,13 @@ def test_a_pump_that_is_not_the_papers_is_told_so(tmp_path, capsys):
     assert "about the paper's pump" in capsys.readouterr().out
     assert f"--pump {pump}" in page.read_text("utf-8")
     assert "about the paper's pump" in page.read_text("utf-8")
-    assert about(load_pump("ref90")) == about(load_pump("ref90")) == ""
+    own = ReproduceCase(load_pump("ref90"), (Figure.FIG2,), PaperFidelity.FLOATING, FloatingOptions())
+    assert about(own) == ""
+    other = replace(own, pump=load_pump("ref90", {"friction.piston_cylinder": 0.03}))
+    assert "For ref90 with other values the verdicts compare two different pumps" in about(other)
+    rigid = replace(own, floating=FloatingOptions().rigid)
+    assert about(rigid) == "The floating films leave out: pressure viscosity, elastic walls, heat."
+    assert about(replace(rigid, fidelity=PaperFidelity.FIXED)) == ""
 
 
 def test_floating_films_are_drawn(tmp_path):
