@@ -193,7 +193,7 @@ def forces_view(folder: Path, summary: Mapping[str, Any]) -> ForcesView | None:
         "force_error": "force, relative to the largest slipper force",
         "moment_error": "moment, relative to that force at the pitch radius",
         "power_error": "power, relative to the shaft power",
-        "torque_error": "drive torque, difference from the energy balance",
+        "torque_error": "drive torque, difference from the shaft's, relative to its mean",
     }
     closing = [(shares[key], f"{value:.2g}") for key, value in found["closure"].items()]
     picture = inlined(forces_plot(read_forces(folder)))

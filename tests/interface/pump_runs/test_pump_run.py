@@ -128,6 +128,7 @@ def test_report_is_one_self_contained_file(lumped):
     assert links == {path.name for path in lumped.iterdir()} - {"report.html"}
     for words in ("ISO 4391/4409", "Losses of the seven friction pairs", "Chamber pressure and port openings"):
         assert words in page
+    assert "drive torque, difference from the shaft&#39;s, relative to its mean" in page
 
 
 def test_report_is_made_anew_from_the_folder(lumped):

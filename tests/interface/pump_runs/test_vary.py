@@ -37,13 +37,14 @@ def test_a_pump_over_a_key_leaves_a_study(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     assert main([*LUMPED, "--vary", f"{FILM}=6..14um:3", "--excel", "-o", "run"]) == 0
     out = capsys.readouterr().out
-    assert "3 of 3 points" in out
+    assert "3 of 3 points; efficiencies by ISO 4409" in out
     assert "delivery flow [L/min]" in out
     with open("run/study.csv", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     assert [float(row[f"{FILM} [um]"]) for row in rows] == [6.0, 10.0, 14.0]
     leaks = [float(row["leakage flow, valve plate [L/min]"]) for row in rows]
     assert leaks[2] / leaks[0] == pytest.approx((14 / 6) ** 3, rel=1e-2)
+    assert "Efficiencies are those of ISO 4409." in (tmp_path / "run" / "report.html").read_text("utf-8")
     names = {path.name for path in (tmp_path / "run").iterdir()}
     assert names >= {"study.nc", "summary.json", "report.html", "points", "plots", "run.xlsx"}
     assert main(["report", "run"]) == 0

@@ -15,6 +15,7 @@ from system.inputs.units import Dimension
 
 PUMP_STUDY = "pump_study"
 """Kind of a study of a pump's operating points, in its files."""
+EFFICIENCIES_BY = "Efficiencies are those of ISO 4409."
 MAIN = {
     "overall_efficiency": None,
     "delivery_flow_m3_per_s": Dimension.VOLUME_FLOW,
@@ -58,7 +59,8 @@ def study_tiles(summary: Mapping[str, Any]) -> Iterator[Tile]:
 
 def study_words(summary: Mapping[str, Any]) -> str:
     """Return a paragraph on a study from its summary."""
-    return " ".join((_varied(summary), *_spans(summary), *_failed(summary)))
+    by = [EFFICIENCIES_BY] if summary["kind"] == PUMP_STUDY else []
+    return " ".join((_varied(summary), *_spans(summary), *by, *_failed(summary)))
 
 
 def main_spans(summary: Mapping[str, Any]) -> list[tuple[str, Mapping[str, Any]]]:

@@ -40,6 +40,7 @@ class VariedRun(StudyRun):
         title = f"{self.name}: {summary['solved']} of {summary['points']} points"
         if len(rows) > MOST_ROWS + 1:
             title += f", the first {MOST_ROWS}"
+        title += "; efficiencies by ISO 4409"
         tables: list[Table] = [(title, rows[: MOST_ROWS + 1])]
         if summary["failed"]:
             tables.append(("Points without a result", list(failed_rows(summary))))
