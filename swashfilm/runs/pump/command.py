@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from swashfilm.case.gap.switches import add_floating_options
+from swashfilm.case.gap.switches import SWITCHES, add_floating_options
 from swashfilm.console.command import Command
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.inputs import COMMAND_LINE, expect, given_text, option_value, whole
@@ -115,13 +115,23 @@ def varied_case(options: argparse.Namespace) -> tuple[PumpStudy, int]:
         raise InputFaults(COMMAND_LINE, faults)
     one = argparse.Namespace(**{**vars(options), "vary": [], "workers": None, "resume": None})
     case_of = partial(pump_case, one)
-    comments = "".join(f"# command line: {text} in levels\n" for text in options.vary)
-    given = comments + given_text(options.pump, set_values(options.set, faults))
+    given = _solved_with(options) + given_text(options.pump, _overrides(options)[0])
     name = f"{Path(options.pump).stem}-vary"
     study = PumpStudy(name, given, axes, Combine.ALL, case_of, Fidelity(options.fidelity))
     if faults := faults_of_points(axes, study.points, case_of):
         raise InputFaults(COMMAND_LINE, faults)
     return study, workers
+
+
+def _solved_with(options: argparse.Namespace) -> str:
+    """Return comments with the levels of --vary and the fidelity with its options, which no pump file states."""
+    flags = [switch for switch in SWITCHES if option_value(options, switch)]
+    values = ((option, option_value(options, option)) for option in ("--fidelity", "--table", "--steps", "--finer"))
+    words = [
+        *(f"{text} in levels" for text in options.vary),
+        *(f"{option} {value}" for option, value in values if value),
+    ]
+    return "".join(f"# command line: {text}\n" for text in (*words, *flags))
 
 
 def pump_case(options: argparse.Namespace, values: Mapping[str, object] | None = None) -> PumpCase:

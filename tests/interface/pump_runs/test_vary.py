@@ -54,6 +54,17 @@ def test_a_pump_over_a_key_leaves_a_study(tmp_path, monkeypatch, capsys):
     assert "3 points kept" in capsys.readouterr().err
 
 
+def test_a_study_of_a_pump_keeps_all_that_it_was_solved_with(tmp_path, monkeypatch):
+    """Operating point and fidelity of the command line stand in its input, which the page shows."""
+    monkeypatch.chdir(tmp_path)
+    words = ["--pressure", "20MPa", "--set", "piston.mass=150g", "--vary", f"{FILM}=8um"]
+    assert main([*LUMPED, *words, "-o", "run"]) == 0
+    given = (tmp_path / "run" / "input.toml").read_text("utf-8").splitlines()
+    for line in (f"{FILM}=8um in levels", "--fidelity lumped", "operating.pressure = 20MPa", "piston.mass = 150g"):
+        assert f"# command line: {line}" in given
+    assert "--fidelity lumped" in (tmp_path / "run" / "report.html").read_text("utf-8")
+
+
 def test_two_keys_make_a_grid():
     found = sf.vary("ref90", {FILM: "8..12um:2", "operating.pressure": "100,300bar"}, fidelity="lumped")
     flow = found.to_xarray()["delivery_flow_m3_per_s"]
