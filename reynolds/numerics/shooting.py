@@ -152,10 +152,15 @@ def _too_far(last_start: Array, last: Turn, start: Array, turn: Turn) -> bool:
 
 
 def _circles(slopes: Array) -> bool:
-    """True if the turns circle the periodic motion, and none leads straight away: Newton's step leads to it."""
+    """True if the turns circle the periodic motion, and none leads straight away: Newton's step leads to it.
+
+    They do if the leading multipliers are complex or negative; those above one lead away along the circle.
+    """
     multipliers = np.linalg.eigvals(slopes)
-    leading = multipliers[np.abs(multipliers) >= CIRCLING]
-    return bool(len(leading) and np.all(np.abs(leading.imag) > np.abs(leading.real - 1.0)))
+    sizes = np.abs(multipliers)
+    leading = multipliers[sizes >= min(CIRCLING, sizes.max())]
+    turning = (leading.imag != 0.0) | (leading.real < 0.0)
+    return bool(np.all(turning & (np.abs(leading.imag) > leading.real - 1.0)))
 
 
 def _next(start: Array, turn: Turn, share: float) -> Array:
@@ -163,8 +168,7 @@ def _next(start: Array, turn: Turn, share: float) -> Array:
     reach = share * turn.reach
     way, power = turn.end - start, turn.slopes
     if _circles(turn.slopes):
-        beyond = np.linalg.solve(np.eye(len(start)) - turn.slopes, way) - way
-        return _within(INWARDS * reach, turn.end, beyond)
+        return _inwards(start, turn, share)
     beyond = np.zeros(len(start))
     for _ in range(MOST_DOUBLINGS):
         further = way + power @ way
@@ -173,6 +177,18 @@ def _next(start: Array, turn: Turn, share: float) -> Array:
             break
         way, power = further, power @ power
     return _within(reach, turn.end, beyond)
+
+
+def _inwards(start: Array, turn: Turn, share: float) -> Array:
+    """Towards the centre that turns circle, by Newton's step: from the turn's end, or as far from its start as it went.
+
+    The nearer to the centre of both. A turn that is carried far along its circle is no nearer to the centre at its end.
+    """
+    way = turn.end - start
+    centre = start + np.linalg.solve(np.eye(len(start)) - turn.slopes, way)
+    from_end = _within(share * INWARDS * turn.reach, turn.end, centre - turn.end)
+    from_start = _within(share * float(np.abs(way).max()), start, centre - start)
+    return min(from_end, from_start, key=lambda place: float(np.abs(centre - place).max()))
 
 
 def _within(reach: float, end: Array, beyond: Array) -> Array:

@@ -225,3 +225,19 @@ def test_next_to_the_periodic_motion():
     pushed = _turn(lambda t, h: (np.array([-1e-3]), np.zeros((1, 1))), TURN, 4, reach=1e-6)
     with pytest.raises(FilmNotConverged, match="not periodic after 30 turns"):
         approached(pushed, far)
+
+
+def test_centre_of_a_wide_circle_is_found():
+    """Turns on a circle that is wide beside the reach, as a piston whirls along its bore: not round it, but inwards."""
+    around, middle, circle = 0.8, np.array([3.0, -2.0]), 10.0
+    rotation = np.array([[np.cos(around), -np.sin(around)], [np.sin(around), np.cos(around)]])
+
+    def turn(start, before):
+        off = start - middle
+        growth = 1.3 - 0.3 * (off @ off) / circle**2
+        slopes = rotation @ (growth * np.eye(2) - 0.6 * np.outer(off, off) / circle**2)
+        return Turn(start, middle + growth * rotation @ off, slopes, np.zeros((0, 2)), reach=0.38)
+
+    found = periodic(turn, middle + np.array([circle, 0.0]))
+    assert found.start == pytest.approx(middle, abs=1e-9)
+    assert found.turns <= 20
