@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -19,8 +19,10 @@ from system.inputs.channels import ChannelName
 
 MOST_POINTS = 1000
 """Of a table of steady points: a fit takes time as their number, tests of drift and place as its cube."""
-ROUGH, TOGETHER = 1.4, 3
-"""Scatter of every channel in multiples of the stated that is too large, and the channels from which it is a fault."""
+ROUGH, TOGETHER, ROUGH_ALONE = 1.4, 3, 2.5
+"""Scatter of every channel in multiples of the stated that is too large, the channels from which it is a fault, and the
+scatter of one channel beside others as stated.
+"""
 VARIED = 2.0
 """Ratio of flow over displacement ratio between points: more than leakage explains: the speed varied."""
 
@@ -80,18 +82,21 @@ def too_smooth(chi2: float, readings: int, least: float) -> DataNote | None:
     )
 
 
-def too_rough(scatter: Mapping[ChannelName, float]) -> DataNote | None:
-    """Return the fault of readings all of which scatter more than stated about any smooth law of the inputs; else None.
+def too_rough(scatter: Mapping[ChannelName, float]) -> Iterator[DataNote]:
+    """Yield the fault of readings all of which scatter more than stated about any smooth law of the inputs.
 
     Physics shows in some channels and is smooth; a repeatability stated too small shows in all and is not. Of one or
-    two channels it is a warning. scatter: in multiples of the repeatability, of channels with enough readings to tell.
+    two channels, or of a few among others, it is a warning. scatter: in multiples of the repeatability, of channels
+    with enough readings to tell.
     """
-    if not scatter or min(scatter.values()) < ROUGH:
-        return None
-    sizes = ", ".join(f"{name.value} {size:.1f} times" for name, size in scatter.items())
-    kind = NoteKind.FAULT if len(scatter) >= TOGETHER else NoteKind.WARNED
+    every = bool(scatter) and min(scatter.values()) >= ROUGH
+    rough = {name: size for name, size in scatter.items() if every or size >= ROUGH_ALONE}
+    if not rough:
+        return
+    sizes = ", ".join(f"{name.value} {size:.1f} times" for name, size in rough.items())
     text = f"readings scatter more than their stated repeatability about any smooth law of the inputs: {sizes}"
-    return DataNote(kind, None, (), f"{text}; state the sigma that repeats show")
+    fault = every and len(scatter) >= TOGETHER
+    yield DataNote(NoteKind.FAULT if fault else NoteKind.WARNED, None, (), f"{text}; state the sigma that repeats show")
 
 
 def with_notes(recording: Recording, notes: Iterable[DataNote]) -> Recording:

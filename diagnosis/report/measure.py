@@ -23,6 +23,10 @@ NO_POINT_TELLS = (
     "No further operating point would tell more: nothing else that could be fitted comes near. The pump's own "
     f"dimensions would: {DIMENSIONS}."
 )
+AGAIN = (
+    "Read the points with the largest difference again, some of them five times: their scatter tells whether that of "
+    "the meter is stated too small."
+)
 NOTHING_BETTER = "Nothing else that could be fitted explains the readings better."
 EVEN, POOR = 0.5, 0.2
 """Chances of a decision below which readings hardly decide, and below which they are not worth a test."""
@@ -42,7 +46,7 @@ def measure_words(diagnosis: Diagnosis) -> str:
     if diagnosis.kind is Kind.NO_MISMATCH and diagnosis.status is not VerdictStatus.SUSPICION:
         return NOTHING_MORE
     if not diagnosis.effects:
-        return "Read the points with the largest difference again."
+        return AGAIN
     if any(EffectId.UNKNOWN_PHYSICS in claim.equivalent for claim in diagnosis.effects):
         inputs = listed(map(channel_words, diagnosis.location.inputs))
         where = f" at other values of {inputs}" if inputs else ""

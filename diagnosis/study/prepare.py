@@ -159,11 +159,10 @@ def _excess_notes(channels: tuple[ChannelName, ...], excess: Array, least: float
             yield DataNote(NoteKind.NOTED, channel, (), text)
 
 
-def _rough_notes(bare: Study, thresholds: Thresholds) -> tuple[DataNote, ...]:
+def _rough_notes(bare: Study, thresholds: Thresholds) -> Iterator[DataNote]:
     """The note on a stated repeatability that is too small for the scatter of the readings, if it is."""
     scatter = zip(bare.channels, stated_scatter(bare, thresholds.mismatch).tolist(), strict=True)
-    found = too_rough({channel: size for channel, size in scatter if size > 0.0})
-    return () if found is None else (found,)
+    return too_rough({channel: size for channel, size in scatter if size > 0.0})
 
 
 def _drift_notes(courses: Mapping[ChannelName, Array], recording: Recording) -> Iterator[DataNote]:

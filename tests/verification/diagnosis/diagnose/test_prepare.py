@@ -85,14 +85,13 @@ def test_a_repeatability_stated_too_small_is_a_fault_and_no_unknown_physics(
 
 def test_of_one_channel_the_scatter_is_a_warning() -> None:
     """An effect without a smooth course may be in one channel; in all of them none is."""
-    assert too_rough({Q: 3.0, ChannelName.TORQUE: 1.0, ChannelName.Q_OUT: 2.0}) is None
-    assert too_rough({}) is None
-    one = too_rough({Q: 3.0})
-    every = too_rough({Q: 3.0, ChannelName.TORQUE: 1.6, ChannelName.Q_OUT: 2.0})
-    assert one is not None
-    assert every is not None
-    assert (one.kind, every.kind) == (NoteKind.WARNED, NoteKind.FAULT)
+    assert list(too_rough({Q: 2.0, ChannelName.TORQUE: 1.0, ChannelName.Q_OUT: 2.0})) == []
+    assert list(too_rough({})) == []
+    (one,), (beside,) = too_rough({Q: 2.0}), too_rough({Q: 4.0, ChannelName.TORQUE: 1.0, ChannelName.Q_OUT: 2.0})
+    (every,) = too_rough({Q: 3.0, ChannelName.TORQUE: 1.6, ChannelName.Q_OUT: 2.0})
+    assert [each.kind for each in (one, beside, every)] == [NoteKind.WARNED, NoteKind.WARNED, NoteKind.FAULT]
     assert "Q_case 3.0 times, torque 1.6 times, Q_out 2.0 times" in every.text
+    assert "inputs: Q_case 4.0 times; state" in beside.text
 
 
 def test_a_recording_without_simulated_outputs_is_refused() -> None:
