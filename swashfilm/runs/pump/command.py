@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -110,17 +111,24 @@ def varied_case(options: argparse.Namespace) -> tuple[PumpStudy, int]:
     if options.refine is not None:
         faults.append(Fault("--refine", "beside --vary", "one of the two"))
     axes = vary_axes(options.vary, faults)
-    faults += _beside_levels([axis.key for axis in axes], options)
+    faults += [*_beside_levels([axis.key for axis in axes], options), *_fidelity_faults(options)]
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
     one = argparse.Namespace(**{**vars(options), "vary": [], "workers": None, "resume": None})
     case_of = partial(pump_case, one)
-    given = _solved_with(options) + given_text(options.pump, _overrides(options)[0])
     name = f"{Path(options.pump).stem}-vary"
-    study = PumpStudy(name, given, axes, Combine.ALL, case_of, Fidelity(options.fidelity))
+    study = PumpStudy(name, "", axes, Combine.ALL, case_of, Fidelity(options.fidelity))
     if faults := faults_of_points(axes, study.points, case_of):
         raise InputFaults(COMMAND_LINE, faults)
-    return study, workers
+    return replace(study, text=_solved_with(options) + given_text(options.pump, _overrides(options)[0])), workers
+
+
+def _fidelity_faults(options: argparse.Namespace) -> list[Fault]:
+    """Return the fault of --fidelity, if it is none."""
+    if options.fidelity in _FIDELITIES:
+        return []
+    nearest = nearest_choice(options.fidelity, _FIDELITIES)
+    return [Fault("--fidelity", repr(options.fidelity), f"one of {', '.join(_FIDELITIES)}", nearest)]
 
 
 def _solved_with(options: argparse.Namespace) -> str:
@@ -152,9 +160,8 @@ def pump_case(options: argparse.Namespace, values: Mapping[str, object] | None =
         for option in ("--resume", "--workers")
         if option_value(options, option)
     ]
-    if options.fidelity not in _FIDELITIES:
-        nearest = nearest_choice(options.fidelity, _FIDELITIES)
-        faults.append(Fault("--fidelity", repr(options.fidelity), f"one of {', '.join(_FIDELITIES)}", nearest))
+    if unknown := _fidelity_faults(options):
+        faults += unknown
     elif options.table and options.fidelity != Fidelity.TABLE.value:
         faults.append(Fault("--table", f"beside --fidelity {options.fidelity}", "no table, or --fidelity table"))
     expect(options.pump, "pump", "film")

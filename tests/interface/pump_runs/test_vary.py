@@ -121,6 +121,16 @@ def test_a_key_has_one_value_on_a_command_line(capsys):
     assert f"--set {FILM}\n    found:    '8um' and '10um'" in text
 
 
+def test_what_is_wrong_at_every_level_is_told_as_of_one_pump(tmp_path, capsys):
+    """An unknown fidelity, a file that is not there and a fault beside the key are bad input, and have no level."""
+    vary = ["--vary", f"{FILM}=6um,8um"]
+    assert "try:      lumped" in told(["run", "ref90", "--fidelity", "lumpd", *vary], capsys)
+    missing = told(["run", str(tmp_path / "none.toml"), "--fidelity", "lumped", *vary], capsys)
+    assert "which is no built-in pump and no file\n" in missing
+    heavy = told([*LUMPED, *vary, "--set", "piston.mass=5 mm"], capsys)
+    assert "found:    '5 mm', which is not a mass\n" in heavy
+
+
 def test_the_fault_of_a_set_key_is_not_one_of_an_option(capsys):
     assert "  operating.pressure\n" in told([*LUMPED, "--set", "operating.pressure=1MPa"], capsys)
     assert "  --pressure\n" in told([*LUMPED, "--pressure", "1MPa"], capsys)

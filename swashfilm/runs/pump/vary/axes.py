@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import product
 
@@ -80,18 +79,27 @@ def pump_faults(
 
     check: makes the pump with these values of the keys; raises InputFaults.
     """
-    wrong: dict[Point, Sequence[Fault]] = {}
-    for point in _checked(axes, points):
+    checked, wrong = _checked(axes, points), dict[Point, Sequence[Fault]]()
+    for point in checked:
         try:
             check({axis.key: axis.values[k] for axis, k in zip(axes, point, strict=True)})
         except InputFaults as reason:
             wrong[point] = reason.faults
-    counts = Counter(fault.path for faults in wrong.values() for fault in faults)
-    firsts: dict[str, tuple[Point, Fault]] = {}
+    each: dict[str, list[tuple[Point, Fault]]] = {}
     for point, faults in wrong.items():
         for fault in faults:
-            firsts.setdefault(fault.path, (point, fault))
-    return [_at_axis(axes, point, fault, counts[path], wrong) for path, (point, fault) in firsts.items()]
+            each.setdefault(fault.path, []).append((point, fault))
+    return [_told(axes, found, len(checked), wrong) for found in each.values()]
+
+
+def _told(
+    axes: Sequence[StudyAxis], found: Sequence[tuple[Point, Fault]], checked: int, wrong: Mapping[Point, object]
+) -> Fault:
+    """Return the fault of a path, as it is where it does not change with the keys."""
+    point, fault = found[0]
+    if len(found) == checked > 1 and all(other == fault for _, other in found):
+        return fault
+    return _at_axis(axes, point, fault, len(found), wrong)
 
 
 def _checked(axes: Sequence[StudyAxis], points: Sequence[Point]) -> Sequence[Point]:
