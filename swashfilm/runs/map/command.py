@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -159,7 +159,11 @@ def map_case(options: argparse.Namespace, axes: Sequence[MapAxis] | None = None)
     except InputFaults as reason:
         raise InputFaults(reason.source, [*faults, *reason.faults], reason.lines) from None
     pump = known.pump
-    plan = map_plan(pump, with_usual(options.plan, pump, own_axes) if axes is None else axes)
+    levels = with_usual(options.plan, pump, own_axes) if axes is None else axes
+    faults += set_beside_levels(
+        stated, levels, "" if axes is None else "no operating point: both maps have the same levels"
+    )
+    plan = map_plan(pump, levels)
     if MANY < plan.size <= MOST_POINTS:
         show_at_once(f"{plan.size} points: each is checked before the first is solved")
     faults += [*by_option(plan.checked().faults), *_solver_faults(options, plan)]
@@ -190,6 +194,23 @@ def stated_axes(options: argparse.Namespace, faults: list[Fault]) -> list[MapAxi
         else:
             axes.append(found)
     return axes
+
+
+def set_beside_levels(stated: Collection[str], axes: Sequence[MapAxis], expected: str = "") -> list[Fault]:
+    """Return the faults of keys of --set that give one value to an input with levels; expected: in place of options."""
+    from system.maps.plan import MapInput
+
+    levels = {axis.input: ", ".join(map(axis.input.text, axis.values)) for axis in axes}
+    given = {path: MapInput[LEVELS[option][0]] for path, option in OPTIONS.items() if path in stated}
+    return [
+        Fault(
+            f"--set {path}",
+            f"beside levels of it, {levels[one]}",
+            expected or f"one of the two: {OPTIONS[path]}, or --plan point",
+        )
+        for path, one in given.items()
+        if one in levels
+    ]
 
 
 def with_usual(plan: str, pump: PumpDescription, stated: Sequence[MapAxis]) -> list[MapAxis]:

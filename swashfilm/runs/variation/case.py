@@ -14,7 +14,7 @@ from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.floating_options import alike_faults, floating_faults, floating_options
 from swashfilm.console.inputs import COMMAND_LINE, expect, given_text
 from swashfilm.console.settings import set_values
-from swashfilm.runs.map.command import solving_faults, stated_axes, with_usual
+from swashfilm.runs.map.command import set_beside_levels, solving_faults, stated_axes, with_usual
 from swashfilm.runs.map.duty.cycle_file import read_cycle
 from swashfilm.runs.map.run import POINT_COST, MapCase, kept_table
 from swashfilm.runs.variation.options import chosen_keys, needs_keys
@@ -90,8 +90,9 @@ def varied_case(
     stated_pump = _stated_pump(options, set_keys, faults)
     pump = stated_pump.pump
     axes = with_usual(options.plan, pump, own_axes)
-    plan = map_plan(pump, axes if options.cycle is None else cycle_axes(pump, axes, options.cycle))
-    faults += [*plan.checked().faults, *alike_faults(pump)]
+    axes = axes if options.cycle is None else cycle_axes(pump, axes, options.cycle)
+    plan = map_plan(pump, axes)
+    faults += [*set_beside_levels(set_keys, axes), *plan.checked().faults, *alike_faults(pump)]
     by_table = options.fidelity == Fidelity.TABLE.value and not faults
     table = table_of(plan, options.table) if by_table else None
     faults += of_pump(pump, table)

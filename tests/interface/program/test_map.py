@@ -16,10 +16,12 @@ from bench_pump import BENCH
 import swashfilm as sf
 from reynolds import NotConverged
 from swashfilm.__main__ import main
+from swashfilm.cli.app import build_parser
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.levels import map_axis
 from swashfilm.output.warnings import Grade, causes
 from swashfilm.runs.compare.run import Side, fidelity_warnings
+from swashfilm.runs.map.command import map_case
 from swashfilm.runs.map.contour_levels import efficiency_levels
 from swashfilm.runs.map.duty.cycle_file import read_cycle
 from swashfilm.runs.map.files import read_map
@@ -556,3 +558,15 @@ def test_what_is_wrong_with_a_cycle_is_told(run, text, told, tmp_path, capsys):
     assert main(["duty", str(run), str(tmp_path / "cycle.csv"), "-o", str(tmp_path / "d")]) == 2
     assert told in capsys.readouterr().err
     assert not Path(tmp_path / "d").exists()
+
+
+def test_a_set_input_with_levels_is_no_silent_value(capsys):
+    """The levels of a map would outweigh it; alone, or with --plan point, it is the map's own."""
+    speed = "operating.speed=900rpm"
+    for words in (["map", "ref90"], ["sensitivity", "ref90", "--plan", "paper"], ["compare", "ref90", "ref90"]):
+        assert main([*words, "--fidelity", "lumped", "--set", speed]) == 2
+        told = capsys.readouterr().err
+        assert "--set operating.speed\n    found:    beside levels of it, 1000 r/min, 1300 r/min" in told
+    for plan, held in (("paper", "operating.temperature=80degC"), ("point", speed)):
+        words = ["map", "ref90", "--fidelity", "lumped", "--plan", plan, "--set", held]
+        assert len(map_case(build_parser().parse_args(words)).plan.axes) == len(MapInput)
