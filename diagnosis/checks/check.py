@@ -19,7 +19,7 @@ from system.inputs.channels import ChannelName
 
 MOST_POINTS = 1000
 """Of a table of steady points: a fit takes time as their number, tests of drift and place as its cube."""
-ROUGH, TOGETHER, ROUGH_ALONE = 1.4, 3, 2.5
+ROUGH, TOGETHER, ROUGH_ALONE = 1.4, 3, 2.0
 """Scatter of every channel in multiples of the stated that is too large, the channels from which it is a fault, and the
 scatter of one channel beside others as stated.
 """

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 
 from diagnosis.report.certainty import SURE, certainty, record_words, sure_words
-from diagnosis.report.course import course_words
+from diagnosis.report.course import course_words, drift_words
 from diagnosis.report.evidence import evidence
 from diagnosis.report.format import PLACES, effect_words, listed
 from diagnosis.report.hidden import hidden_effects, hidden_examples
@@ -75,7 +75,7 @@ def plain_answer(study: Study, diagnosis: Diagnosis, cost: str) -> PlainAnswer:
         headline=headline(diagnosis),
         finding=finding(diagnosis),
         cost=cost,
-        doubt=doubt(diagnosis),
+        doubt=" ".join(filter(None, (doubt(diagnosis), drift_words(study, diagnosis)))),
         course=course_words(study, diagnosis),
         where=where_words(diagnosis),
         certainty=certainty(diagnosis, study.scant),

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import spearmanr
 
 from diagnosis.explain.explained import explained_mismatch
 from diagnosis.explain.scaling import Scaling
@@ -22,6 +24,12 @@ ENDS = 0.15
 """Of an axis: the parts at its ends whose difference is stated."""
 NOTHING = 0.005
 """Of the largest difference: a smaller one is none."""
+DRIFTS = {
+    ChannelName.Q_OUT: "delivery flow meter", ChannelName.Q_IN: "inlet flow meter", ChannelName.TORQUE: "torque meter",
+}  # fmt: skip
+"""Meters that may drift without a hypothesis that says so."""
+IN_ORDER = 0.9
+"""Rank correlation with the order of the points from which an addition may be a drift."""
 HIDDEN = 3.0
 """Times the misfit without the finding that the difference is at least, where the fit hides it."""
 SIDES = {
@@ -54,21 +62,46 @@ def course_words(study: Study, diagnosis: Diagnosis) -> str:
     By the explanation's addition, which has no noise. Empty without an explanation, and for traces alone.
     """
     channel = _channel(study, diagnosis)
-    if channel is None:
+    found = None if channel is None else _added(study, diagnosis, channel)
+    if channel is None or found is None:
         return ""
-    try:
-        added = explained_mismatch(study, diagnosis.hypotheses[0], diagnosis.thresholds).added
-    except NotConverged:  # the explanation's own simulation stands; without the effect there is none to subtract from
-        return ""
-    own = added[:, study.channels.index(channel)]
-    measured = study.observations.measured[:, study.channels.index(channel)]
-    if not np.any(own[measured]):
-        return ""
+    own, measured = found
     more, less = SIDES[channel]
     ends = _ends(channel, own[measured], {name: x[measured] for name, x in axis_values(study.recording).items()})
     same = _same(diagnosis.scaling, diagnosis.thresholds.form.flat)
     side = more if float(np.sum(own[measured])) > 0.0 else less
     return f"{side}: {', '.join(part for part in (ends, same) if part)}.{_made_up(channel, own[measured], diagnosis)}"
+
+
+def drift_words(study: Study, diagnosis: Diagnosis) -> str:
+    """A drift of the first channel's meter as a rival, where what the claim adds goes with the order of the recording.
+
+    Empty for the case drain, whose drift is a hypothesis, and for points in a mixed order.
+    """
+    channel = _channel(study, diagnosis)
+    found = _added(study, diagnosis, channel) if channel in DRIFTS and diagnosis.effects else None
+    if channel is None or found is None:
+        return ""
+    own, measured = found
+    hours = study.recording.steady.hours
+    order = hours if np.all(np.isfinite(hours)) else np.arange(len(hours), dtype=float)
+    if np.ptp(own[measured]) == 0.0 or abs(float(spearmanr(order[measured], own[measured]).statistic)) < IN_ORDER:
+        return ""
+    return (
+        f"A drift of the {DRIFTS[channel]}, which no hypothesis is, would look alike: the difference goes with the "
+        "order of the points. Read the first points again at the end."
+    )
+
+
+def _added(study: Study, diagnosis: Diagnosis, channel: ChannelName) -> tuple[Array, NDArray[np.bool_]] | None:
+    """Addition (N,) of the first explanation to a channel, and where that is measured; None without any."""
+    try:
+        added = explained_mismatch(study, diagnosis.hypotheses[0], diagnosis.thresholds).added
+    except NotConverged:  # the explanation's own simulation stands; without the effect there is none to subtract from
+        return None
+    at = study.channels.index(channel)
+    own, measured = added[:, at], study.observations.measured[:, at]
+    return (own, measured) if np.any(own[measured]) else None
 
 
 def _made_up(channel: ChannelName, added: Array, diagnosis: Diagnosis) -> str:

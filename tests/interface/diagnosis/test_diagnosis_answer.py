@@ -270,6 +270,21 @@ def test_a_difference_that_is_none_is_no_number(
     assert ": nothing at 50 bar, 30 L/min more at 350 bar" in course.course_words(study, named)
 
 
+@pytest.mark.parametrize(("mixed", "told"), [(False, True), (True, False)])
+def test_a_difference_in_the_order_of_the_points_may_be_a_drift(
+    study: Study, named: Diagnosis, monkeypatch: pytest.MonkeyPatch, mixed: bool, told: bool
+) -> None:
+    """Of the torque, whose drift no hypothesis is, where the points were driven by rising speed; in no mixed order."""
+    rise = np.arange(len(PRESSURE)) * 0.1
+    rise = rise[np.random.default_rng(1).permutation(len(rise))] if mixed else rise
+    added = np.stack([0.0 * rise, rise], axis=1)
+    monkeypatch.setattr(course, "explained_mismatch", lambda *given: ExplainedMismatch(added, added))
+    of_torque = replace(named, location=replace(named.location, channels=(ChannelName.TORQUE,)))
+    words = course.drift_words(study, of_torque)
+    assert ("drift of the torque meter" in words) is told
+    assert course.drift_words(study, named) == ""
+
+
 def test_one_point_of_efficiency_is_one() -> None:
     one = (Change("efficiency, overall (ISO 4409)", "%", 80.0, 79.0),)
     assert cost_words(PumpComparison({}, {}, one, "")).startswith("It costs 1 point of efficiency where")
