@@ -33,7 +33,7 @@ _NAMED = {
         "film_runs_dry film_turbulent film_without_supply motion_unstable no_3d_picture no_delivery "
         "nothing_feasible pareto_still_grows points_failed port_pressure_follows_line profile_not_resolved "
         "pumps_refused seam_is_a_wall search_not_settled start_outside_bounds steps_too_long table_guesses "
-        "operating.temperature piston.radial_clearance"
+        "operating.case_pressure operating.temperature piston.radial_clearance"
     ),
     Grade.DESIGN: (
         "actuator_cavitates block_tips chamber_cavitates chamber_overpressure retainer_gives_way "
@@ -57,6 +57,7 @@ GRADES: Mapping[str, Grade] = {name: grade for grade, names in _NAMED.items() fo
 A key that is not listed needs care: a doubtful value is most often a unit mistaken.
 """
 _TITLES = {
+    "operating.case_pressure": "Pressure in the case",
     "operating.pressure": "Above the rated pressure",
     "operating.speed": "Above the rated speed",
     "operating.temperature": "Viscosity of the oil",

@@ -380,6 +380,8 @@ def test_a_check_waits_for_values_it_can_trust(faults_of):
         ({"operating.temperature": "90 degC"}, "operating.temperature"),
         ({"oil.bulk_modulus": "1.6 MPa"}, "oil.bulk_modulus"),
         ({"operating.case_pressure": "400 bar"}, "ball_guide.spring_preload"),
+        ({"operating.case_pressure": "400 bar"}, "operating.case_pressure"),
+        ({"operating.case_pressure_abs": "6.1 bar"}, "operating.case_pressure"),
         ({"piston.mass": "160 kg"}, "piston.mass"),
         ({"slipper.mass": "50 kg"}, "slipper.mass"),
         ({"friction.piston_cylinder": 2.6}, "friction.piston_cylinder"),
@@ -421,6 +423,11 @@ def test_a_slipper_is_held_while_its_spring_outweighs_inertia_and_case(over, hel
     assert ("ball_guide.spring_preload" in found) is not held
     clearance = load_pump(BENCH, {**override, "retainer.kind": "clearance"})
     assert "ball_guide.spring_preload" not in {warning.path for warning in check_pump(clearance).warnings}
+
+
+def test_the_case_of_a_pump_at_a_cold_start_is_not_doubtful():
+    cold = load_pump("ref90", {"operating.case_pressure_abs": "6 bar", "operating.inlet_pressure": "30 bar"})
+    assert "operating.case_pressure" not in {warning.path for warning in check_pump(cold).warnings}
 
 
 def test_ref90_is_not_doubtful():
