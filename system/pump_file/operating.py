@@ -21,8 +21,8 @@ from system.pump_file.check import CheckReport, CheckWarning, Finding, angle, ch
 CAVITATION_PRESSURE_ABS = 5e3
 # Requirement of makers of axial piston pumps for a suction line, 0.8 bar absolute: below it chambers fill in part.
 FILLING_PRESSURE_ABS = 80e3
-# Limit of the case of an axial piston pump, for its shaft seal, as makers commonly quote it (the A4VG's sheet as recalled,
-# the original was not at hand): 3 bar absolute in continuous operation, 6 bar absolute at a cold start.
+# Limit of the case of an axial piston pump, for its shaft seal, as makers commonly quote it (A4VG, as recalled; the
+# original was not at hand): 3 bar absolute in continuous operation, 6 bar absolute at a cold start.
 CASE_PRESSURE_ABS = 600e3
 # Of its volume; a mineral oil (1.4 to 2 GPa, stiffer as it is pressed) is not compressed so far by any pump.
 LARGE_COMPRESSION = 0.1
