@@ -63,7 +63,7 @@ FAR = 20.0
 """Change of a spin by a round with steps of FIRST_STEP, over its tolerance, from which the next round has them too."""
 NEARLY = 6.0
 """Multiple of their tolerances within which the changes of a round count as near agreement of gaps and chambers."""
-ROUND_LIMIT = 20
+ROUND_LIMIT = 40
 
 
 @dataclass(frozen=True)
