@@ -156,11 +156,11 @@ class _LoadSearch:
         self.free = [0, *(k for k, moment in enumerate(moments, start=1) if moment is not None)]
 
     def leans(self) -> Iterator[tuple[float, float]]:
-        """Tilts to start from, rise over the extent per least gap: a flat film may bear nothing untilted."""
+        """Tilts to start from, rise over the extent per least gap: a film that is flat, or opens, may bear nothing."""
         yield 0.0, 0.0
-        for sign in (-1.0, 1.0):
+        for rise in (-1.0, 1.0, -4.0, 4.0):
             for k in self.free[1:]:
-                yield (sign, 0.0) if k == 1 else (0.0, sign)
+                yield (rise, 0.0) if k == 1 else (0.0, rise)
 
     def at(self, position: Position) -> _Tried:
         """The film at a position; raises as the solve does."""

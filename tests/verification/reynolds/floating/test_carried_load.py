@@ -166,6 +166,31 @@ def test_a_square_pad_finds_both_tilts(aside):
     assert found.films < 60
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_a_pad_is_found_again_from_any_shape_of_its_own(seed):
+    """A film of random gap, slope, crown and tilt bears a load; a pad of the same crown, with another slope, is asked
+    to bear it: closing, flat or opening by up to twice the film."""
+    random = np.random.default_rng(seed)
+    space = film_space(rectangle((LENGTH, LENGTH), (16, 8), origin=(-LENGTH / 2, -LENGTH / 2)))
+    every = {name: Held(0.0) for name in ("left", "right", "bottom", "top")}
+    for _ in range(10):
+        least, rise, across = 10.0 ** random.uniform(-6, -4), random.uniform(0.05, 4.0), random.uniform(0.0, 0.6)
+        crown, own = random.uniform(0.0, 3.0) * random.integers(0, 2), random.uniform(-2.0, 4.0)
+
+        def film_of(slope, tilt, least=least, crown=crown):
+            def thickness(x, y):
+                return least * (
+                    1.0 + slope * (0.5 - x / LENGTH) + tilt * (y / LENGTH + 0.5) + crown * (2 * x / LENGTH) ** 2
+                )
+
+            return replace(_problem(space, thickness, velocity_moving=SLIDING), boundary=every)
+
+        bears = loads(FilmSolver(space).solve(film_of(rise, across)))
+        found = carry_load(film_of(own, 0.0), RigidLoad(bears.load, bears.moment_x, bears.moment_y))
+        assert found.rest < 1e-6
+        assert found.films < 100
+
+
 def test_a_square_pad_stays_level_across_its_motion():
     space = film_space(rectangle((LENGTH, LENGTH), (16, 16), origin=(-LENGTH / 2, -LENGTH / 2)))
     every = {name: Held(0.0) for name in ("left", "right", "bottom", "top")}
