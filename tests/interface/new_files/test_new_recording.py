@@ -96,6 +96,7 @@ def test_heads_without_units_are_read_by_size_and_every_guess_is_marked(tmp_path
     assert all("guessed" in line for line in lines.values())
     assert "# not used: column 'nr'" in text
     assert "# missing: T_out" in text
+    assert "Q_slipper" not in text
 
 
 @pytest.mark.parametrize(
