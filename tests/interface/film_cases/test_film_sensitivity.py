@@ -65,6 +65,18 @@ def _with(text, **constants):
     return text
 
 
+def test_a_film_has_no_tilt_along_a_seam_or_around_a_cylinder():
+    """It would jump where the film closes on itself."""
+    found = sf.film(SLIDER, sensitivity="load").summary["sensitivity"]
+    assert "by_slope_x_rad" in found["outputs"]["load_N"]
+    assert "by_slope_y_rad" not in found["outputs"]["load_N"]
+    assert list(found["left_out"]) == ["slope_y_rad"]
+    turn = SLIDER.replace(', periodic = "y"', "").replace("velocity", 'geometry = "cylinder"\nvelocity', 1)
+    found = sf.film(turn, sensitivity="bearing_load").summary["sensitivity"]
+    assert "by_slope_y_rad" in found["outputs"]["bearing_load_N"]
+    assert list(found["left_out"]) == ["slope_x_rad"]
+
+
 def test_derivatives_by_constants_of_the_shape_are_slopes_of_the_outputs(case):
     found = sf.film(case(SLIDER), sensitivity="load,flow.left,friction,dissipation").summary
     outputs = found["sensitivity"]["outputs"]
@@ -152,7 +164,10 @@ def test_a_parameter_without_a_derivative_is_named_with_the_reason(case, monkeyp
     text = SLIDER.replace("h0*(1", "h0*(sqrt(edge) + 1", 1).replace("[constants]", "[constants]\nedge = 0.0")
     run = sf.film(case(text), sensitivity="load")
     found = run.summary["sensitivity"]
-    assert found["left_out"] == {"constants.edge": "the thickness beside its value is no number"}
+    assert found["left_out"] == {
+        "slope_y_rad": "the film closes on itself along y",
+        "constants.edge": "the thickness beside its value is no number",
+    }
     assert "by_constants.h0" in found["outputs"]["load_N"]
     assert ("every output", "edge", "left out: the thickness beside its value is no number", "") in run.tables()[-1][1]
 

@@ -17,6 +17,7 @@ from reynolds.problem import ZERO, FilmProblem
 from swashfilm.case.fields.field import Formula
 from swashfilm.case.file import FilmCase
 from swashfilm.case.gap.instant import GapCase
+from swashfilm.case.tables.film import Geometry
 from swashfilm.runs.film.solve.gap import case_gap
 from system.description.gap import Gap
 from system.films.parts import FloatingParts
@@ -74,8 +75,9 @@ def tilts(problem: FilmProblem) -> list[Growth]:
 
 
 def case_growth(case: FilmCase) -> Growths:
-    """Uniform film, both tilts, and each constant of [constants] that the thickness depends on."""
-    found, left_out = [uniform_growth(case.problem), *tilts(case.problem)], dict[str, str]()
+    """Uniform film, the tilts that it can have, and each constant of [constants] that the thickness depends on."""
+    left_out = _closed(case)
+    found = [uniform_growth(case.problem), *(one for one in tilts(case.problem) if one.key not in left_out)]
     thickness, space = case.stated.film.thickness, case.problem.space
     if not isinstance(thickness, Formula):
         return Growths(found, left_out)
@@ -92,6 +94,13 @@ def case_growth(case: FilmCase) -> Growths:
         elif np.any(points != 0.0):
             found.append(Growth(f"{CONSTANT}{name}", value, points, vertices))
     return Growths(found, left_out)
+
+
+def _closed(case: FilmCase) -> dict[str, str]:
+    """Why a film has no tilt along an axis, by the tilt's key: it closes on itself there, and a tilt would jump."""
+    sewn = {name for pair in case.problem.space.film_mesh.seams for name in pair}
+    closed = {"x": "left" in sewn or case.geometry is Geometry.CYLINDER, "y": "bottom" in sewn}
+    return {f"slope_{axis}_rad": f"the film closes on itself along {axis}" for axis in "xy" if closed[axis]}
 
 
 def _differences(shape: Callable[[float], tuple[Array, ...]], value: float) -> list[Array]:
