@@ -98,8 +98,8 @@ def axis_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     counts = f"{summary['solved']} of {summary['points']} solved" + (f", {failed} failed" if failed else "")
     yield "points", counts + (f", {summary['kept']} of them kept from before" if summary["kept"] else "")
     if summary["loss"]:
-        loss = summary["loss"]
-        yield "loss (shaft power minus p Q)", f"{loss['least_W'] * 1e-3:.3g} .. {loss['largest_W'] * 1e-3:.4g} kW"
+        ends = dict.fromkeys(f"{summary['loss'][end] * 1e-3:.4g}" for end in ("least_W", "largest_W"))
+        yield "loss (shaft power minus p Q)", f"{' .. '.join(ends)} kW"
     if summary["energy_balance_error_max"] is not None:
         yield "largest energy balance error", f"{100.0 * summary['energy_balance_error_max']:.2g} % of the shaft power"
     if summary["seconds_a_point"] is not None:

@@ -25,7 +25,7 @@ from swashfilm.runs.map.command import map_case
 from swashfilm.runs.map.contour_levels import efficiency_levels
 from swashfilm.runs.map.duty.cycle_file import read_cycle
 from swashfilm.runs.map.files import read_map
-from swashfilm.runs.map.page import best_rows
+from swashfilm.runs.map.page import axis_rows, best_rows
 from swashfilm.runs.map.run import MapCase
 from system import Fault, load_pump
 from system.maps import point as map_point
@@ -558,6 +558,14 @@ def test_what_is_wrong_with_a_cycle_is_told(run, text, told, tmp_path, capsys):
     assert main(["duty", str(run), str(tmp_path / "cycle.csv"), "-o", str(tmp_path / "d")]) == 2
     assert told in capsys.readouterr().err
     assert not Path(tmp_path / "d").exists()
+
+
+def test_the_loss_of_a_map_has_its_digits_once(run):
+    summary = json.loads((run / "summary.json").read_text("utf-8"))
+    least, largest = (f"{summary['loss'][end] * 1e-3:.4g}" for end in ("least_W", "largest_W"))
+    assert dict(axis_rows(summary))["loss (shaft power minus p Q)"] == f"{least} .. {largest} kW"
+    one = summary | {"loss": {"least_W": 1678.1, "largest_W": 1678.1}}
+    assert dict(axis_rows(one))["loss (shaft power minus p Q)"] == "1.678 kW"
 
 
 def test_a_set_input_with_levels_is_no_silent_value(capsys):

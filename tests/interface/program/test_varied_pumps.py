@@ -78,6 +78,9 @@ def test_files_of_a_sensitivity(costs):
     (shown,) = (row for row in cost_rows(summary) if row[0] == "ports.groove_start")
     assert shown[1:3] == ("0 deg", "+1 deg")
     assert shown[5:] == ("", "", "", "")
+    rows["ports.groove_start"]["measures"]["efficiency.overall"] |= {"verdict": "no effect", "derivative": 0.0}
+    (shown,) = (row for row in cost_rows(summary) if row[0] == "ports.groove_start")
+    assert shown[4] == "about 0"  # the solver tells no smaller change apart
     page = (costs / "report.html").read_text()
     assert "dearest by +1 um" in page
     assert "Dimensions without a derivative" in page

@@ -14,6 +14,8 @@ COST_HEAD = (
 )  # fmt: skip
 SHOWN = 12
 """Rows that the command prints."""
+ABOUT_ZERO = "about 0"
+"""A change that is smaller than what the solver tells apart; it need not be zero."""
 Row = Mapping[str, Any]
 
 
@@ -112,7 +114,7 @@ def _change(row: Row, measure: str, by: str = "change") -> str:
     if found["verdict"] == Verdict.NOT_SMOOTH.value:
         return str(Verdict.NOT_SMOOTH.value)
     if found["verdict"] == Verdict.NO_EFFECT.value:
-        return "0"
+        return ABOUT_ZERO
     value, error = found["derivative"] * row[by], found["error"] * row[by]
     text = MEASURES[measure].change(value)
     if error <= 0.005 * abs(value):
