@@ -13,6 +13,7 @@ from diagnosis.checks.readings import impossible
 from diagnosis.checks.sensors import copies, low_resolution, noiseless, repeated_rows, stuck, stuck_inputs
 from diagnosis.checks.units import implausible, trace_sizes
 from diagnosis.recording.model import DataNote, NoteKind, Recording
+from diagnosis.recording.units import difference, difference_unit
 from diagnosis.thresholds import DataLimits
 from system.bench.outputs import METERED, SIMULATED
 from system.inputs.channels import ChannelName
@@ -82,21 +83,25 @@ def too_smooth(chi2: float, readings: int, least: float) -> DataNote | None:
     )
 
 
-def too_rough(scatter: Mapping[ChannelName, float]) -> Iterator[DataNote]:
+def too_rough(scatter: Mapping[ChannelName, float], sigma: Mapping[ChannelName, float]) -> Iterator[DataNote]:
     """Yield the fault of readings all of which scatter more than stated about any smooth law of the inputs.
 
-    Physics shows in some channels and is smooth; a repeatability stated too small shows in all and is not. Of one or
-    two channels, or of a few among others, it is a warning. scatter: in multiples of the repeatability, of channels
-    with enough readings to tell.
+    Physics shows in some channels and is smooth; a repeatability that is too small shows in all and is not. Of one or
+    two channels, or of a few among others, it is a warning. scatter: in multiples of the usual repeatability, sigma in
+    SI, of channels with enough readings to tell.
     """
     every = bool(scatter) and min(scatter.values()) >= ROUGH
     rough = {name: size for name, size in scatter.items() if every or size >= ROUGH_ALONE}
     if not rough:
         return
-    sizes = ", ".join(f"{name.value} {size:.1f} times" for name, size in rough.items())
-    text = f"readings scatter more than their stated repeatability about any smooth law of the inputs: {sizes}"
+    sizes = ", ".join(
+        f"{name.value} {size:.1f} times ({difference(name, size * sigma[name]):.2g} {difference_unit(name)})"
+        for name, size in rough.items()
+    )
+    text = f"readings scatter more than their repeatability about any smooth law of the inputs: {sizes}"
     fault = every and len(scatter) >= TOGETHER
-    yield DataNote(NoteKind.FAULT if fault else NoteKind.WARNED, None, (), f"{text}; state the sigma that repeats show")
+    mend = "state the sigma that repeated points show"
+    yield DataNote(NoteKind.FAULT if fault else NoteKind.WARNED, None, (), f"{text}; {mend}")
 
 
 def with_notes(recording: Recording, notes: Iterable[DataNote]) -> Recording:

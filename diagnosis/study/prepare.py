@@ -162,7 +162,9 @@ def _excess_notes(channels: tuple[ChannelName, ...], excess: Array, least: float
 def _rough_notes(bare: Study, thresholds: Thresholds) -> Iterator[DataNote]:
     """The note on a stated repeatability that is too small for the scatter of the readings, if it is."""
     scatter = zip(bare.channels, stated_scatter(bare, thresholds.mismatch).tolist(), strict=True)
-    return too_rough({channel: size for channel, size in scatter if size > 0.0})
+    usual = np.nanmedian(np.where(bare.observations.measured, bare.observations.sigma, np.nan), axis=0)
+    sigma = dict(zip(bare.channels, usual.tolist(), strict=True))
+    return too_rough({channel: size for channel, size in scatter if size > 0.0}, sigma)
 
 
 def _drift_notes(courses: Mapping[ChannelName, Array], recording: Recording) -> Iterator[DataNote]:

@@ -85,13 +85,17 @@ def test_a_repeatability_stated_too_small_is_a_fault_and_no_unknown_physics(
 
 def test_of_one_channel_the_scatter_is_a_warning() -> None:
     """An effect without a smooth course may be in one channel; in all of them none is."""
-    assert list(too_rough({Q: 1.9, ChannelName.TORQUE: 1.0, ChannelName.Q_OUT: 1.9})) == []
-    assert list(too_rough({})) == []
-    (one,), (beside,) = too_rough({Q: 2.0}), too_rough({Q: 4.0, ChannelName.TORQUE: 1.0, ChannelName.Q_OUT: 1.9})
-    (every,) = too_rough({Q: 3.0, ChannelName.TORQUE: 1.6, ChannelName.Q_OUT: 2.0})
+    sigma = {Q: 0.01 / 6e4, ChannelName.TORQUE: 0.2, ChannelName.Q_OUT: 0.1 / 6e4}
+    assert list(too_rough({Q: 1.9, ChannelName.TORQUE: 1.0, ChannelName.Q_OUT: 1.9}, sigma)) == []
+    assert list(too_rough({}, sigma)) == []
+    (one,), (beside,) = (
+        too_rough({Q: 2.0}, sigma),
+        too_rough({Q: 4.0, ChannelName.TORQUE: 1.0, ChannelName.Q_OUT: 1.9}, sigma),
+    )
+    (every,) = too_rough({Q: 3.0, ChannelName.TORQUE: 1.6, ChannelName.Q_OUT: 2.0}, sigma)
     assert [each.kind for each in (one, beside, every)] == [NoteKind.WARNED, NoteKind.WARNED, NoteKind.FAULT]
-    assert "Q_case 3.0 times, torque 1.6 times, Q_out 2.0 times" in every.text
-    assert "inputs: Q_case 4.0 times; state" in beside.text
+    assert "Q_case 3.0 times (0.03 L/min), torque 1.6 times (0.32 N m), Q_out 2.0 times (0.2 L/min)" in every.text
+    assert "inputs: Q_case 4.0 times (0.04 L/min); state" in beside.text
 
 
 def test_a_recording_without_simulated_outputs_is_refused() -> None:
