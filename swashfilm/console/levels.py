@@ -42,8 +42,12 @@ class LevelText:
     count: int = 1
 
     def levels(self, dimension: Dimension | None) -> list[float]:
-        """Return the levels in SI; raise QuantityError for ends that are not of the dimension."""
+        """Return the levels in SI; raise QuantityError for ends of another dimension, or equal ones."""
         ends = [_value(end, dimension) for end in self.ends]
+        if self.count > 1 and ends[0] == ends[-1]:
+            raise QuantityError(
+                f"{self.count} levels from {self.ends[0]} to itself", "two ends, or one level", self.ends[0]
+            )
         return [float(value) for value in np.linspace(ends[0], ends[-1], self.count)]
 
 

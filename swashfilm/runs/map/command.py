@@ -51,7 +51,8 @@ PLANS = ("paper", "point")
 
 def add_map_options(command: argparse.ArgumentParser) -> None:
     """Add the arguments of the command to its parser."""
-    command.add_argument("pump", nargs="?", default="ref90", metavar="PUMP", help="built-in name or pump file")
+    what = "built-in name (ref90, the default) or pump file"
+    command.add_argument("pump", nargs="?", default="ref90", metavar="PUMP", help=what)
     for option, (_, example, what) in LEVELS.items():
         command.add_argument(option, metavar=example, help=f"{what}; a..b:n: n levels; one value: constant")
     add_set_option(command)

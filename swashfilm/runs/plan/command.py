@@ -21,7 +21,8 @@ STEPS = 100
 
 def add_plan_options(command: argparse.ArgumentParser) -> None:
     """Add the arguments of the command to its parser."""
-    command.add_argument("pump", nargs="?", default="ref90", metavar="PUMP", help="built-in name or pump file")
+    what = "built-in name (ref90, the default) or pump file"
+    command.add_argument("pump", nargs="?", default="ref90", metavar="PUMP", help=what)
     add_set_option(command)
     for option, (_, example, what) in LEVELS.items():
         command.add_argument(option, metavar=example, help=f"planned {what}; a..b:n: n levels; one value: constant")

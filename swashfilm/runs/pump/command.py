@@ -36,7 +36,8 @@ _FIDELITIES = [fidelity.value for fidelity in Fidelity]
 
 def add_run_options(command: argparse.ArgumentParser) -> None:
     """Add the arguments of the command to its parser."""
-    command.add_argument("pump", nargs="?", default="ref90", metavar="PUMP", help="built-in name (ref90) or pump file")
+    what = "built-in name (ref90, the default) or pump file"
+    command.add_argument("pump", nargs="?", default="ref90", metavar="PUMP", help=what)
     for option, (_, example, what) in _OVERRIDES.items():
         command.add_argument(option, metavar=example, help=f"{what}; default: that of the pump file")
     what = (

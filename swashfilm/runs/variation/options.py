@@ -23,7 +23,8 @@ if TYPE_CHECKING:
 
 def add_varied_options(command: argparse.ArgumentParser) -> None:
     """Add the arguments of a varied pump to the parser of a command."""
-    command.add_argument("pump", nargs="?", default="ref90", metavar="PUMP", help="built-in name or pump file")
+    what = "built-in name (ref90, the default) or pump file"
+    command.add_argument("pump", nargs="?", default="ref90", metavar="PUMP", help=what)
     add_set_option(command)
     for option, (_, example, what) in LEVELS.items():
         command.add_argument(option, metavar=example, help=f"{what}; a..b:n: n levels; one value: constant")

@@ -95,6 +95,7 @@ def test_what_is_wrong_with_a_range_is_told_before_a_point_is_solved(tmp_path, m
     assert "which is not a length" in told([*LUMPED, "--vary", f"{FILM}=6..14bar:3"], capsys)
     assert "a range with a number of levels" in told([*LUMPED, "--vary", f"{FILM}=6..14um"], capsys)
     assert "KEY=LEVELS" in told([*LUMPED, "--vary", FILM], capsys)
+    assert "found:    5 levels from 6um to itself" in told([*LUMPED, "--vary", f"{FILM}=6..6um:5"], capsys)
     text = told([*LUMPED, "--vary", "operating.displacement_ratio=0.2..1.4:7"], capsys)
     assert "operating.displacement_ratio from 0.2 to 1" in text
     assert "2 points have such a fault" in text
