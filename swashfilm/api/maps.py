@@ -73,16 +73,18 @@ def compare(
     *,
     fidelity: str | None = None,
     workers: int = 1,
+    **options: object,
 ) -> CompareRun:
     """Compare two maps or pumps, also over a duty cycle, as `swashfilm compare`; raise InputFaults.
 
-    fidelity: of the map of a pump; None for lumped.
+    fidelity: of the map of a pump; None for lumped. options: those of the command, such as set={"piston.mass": "150 g"}
+    of the other pump.
     """
     with door("compare"), map_or_pump_path(one) as first, map_or_pump_path(other) as second:
         from swashfilm.runs.compare.command import compare_case
         from swashfilm.runs.compare.result import CompareRun
 
-        options = {"cycle": cycle, "fidelity": fidelity, "workers": workers}
+        options |= {"cycle": cycle, "fidelity": fidelity, "workers": workers}
         return CompareRun.ran(compare_case(words_of("compare", [first, second], options)).run)
 
 

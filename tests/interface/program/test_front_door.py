@@ -126,6 +126,8 @@ def test_plots_return_axes(point):
         (lambda: sf.reproduce("fig99"), ["fig99"]),
         (lambda: sf.table("ref90", source="fixd"), ["source", "fixed"]),
         (lambda: sf.compare("ref90", "ref9"), ["ref9"]),
+        (lambda: sf.compare("ref90", "ref90", set={"oil.grad": "ISO VG 32"}), ["oil.grad", "grade"]),
+        (lambda: sf.compare("ref90", "ref90", sett={}), ["sett", "set"]),
     ],
 )
 def test_mistakes_raise_one_exception_with_every_fault(call, told, tmp_path, monkeypatch):

@@ -139,7 +139,7 @@ def warnings_of(found: Tolerance) -> list[str]:
     ]
     if rough:
         said.append(
-            f"shares_uncertain: a quadratic surface explains less than 90 % of {', '.join(rough)}: their shares are a "
+            f"shares_uncertain: a quadratic surface explains less than 90 % of {', '.join(rough)}: shares in it are a "
             "guide only; draw more pumps, or look at pumps.csv itself"
         )
     return said
