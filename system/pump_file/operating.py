@@ -166,7 +166,9 @@ def oil_has_a_viscosity(pump: PumpDescription) -> Iterator[Finding]:
     try:
         fluid = pump.oil.fluid
     except InputError as reason:
-        yield Fault("oil.kinematic_viscosity_100C", f"no oil: {reason}", "an oil that thins from 40 to 100 degC")
+        yield Fault(
+            "oil.kinematic_viscosity_100C", reason.found, f"{reason.expected}: an oil that thins from 40 to 100 degC"
+        )
         return
     try:
         walther(temperature, fluid)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from shlex import quote
 from textwrap import wrap
@@ -10,7 +11,7 @@ from textwrap import wrap
 from diagnosis.recording.model import Circuit
 from swashfilm.cli.new.file import NewFile
 from swashfilm.cli.new.questions import QUESTIONS, ask
-from system.inputs.faults import Fault
+from system.inputs.faults import Fault, InputFaults
 from system.pump_file.file import check_pump
 from system.pump_file.scaled.completed import Completed, completed
 from system.pump_file.scaled.written import written_pump
@@ -27,6 +28,7 @@ def new_pump(given: Mapping[str, str | None], path: Path, faults: list[Fault], a
     """Return the pump file of the options; None with faults added. asks: missing ones are requested on a terminal."""
     answers: dict[str, str] = {}
     stated: dict[str, dict[str, object]] = {}
+    option_of: dict[str, str] = {}
     asks = asks and not faults
     for question in QUESTIONS:
         text = given[question.option]
@@ -38,13 +40,23 @@ def new_pump(given: Mapping[str, str | None], path: Path, faults: list[Fault], a
         answers[question.option] = text
         for table, entries in question.answered(text, faults).items():
             stated.setdefault(table, {}).update(entries)
+            option_of |= {f"{table}.{key}": question.option for key in entries}
     if faults:
         return None
+    try:
+        pump, doubts = _sound(path, stated, answers["--circuit"])
+    except InputFaults as reason:
+        faults += [replace(fault, path=option_of.get(fault.path, fault.path)) for fault in reason.faults]
+        return None
+    return NewFile(path, "pump", written_pump(pump, _head(path, answers)), _told(path, pump, doubts))
+
+
+def _sound(path: Path, stated: Mapping[str, object], circuit: str) -> tuple[Completed, list[str]]:
+    """Return the completed pump of a circuit, with what is doubtful of it; raise InputFaults for no pump."""
     pump = completed(str(path), stated, path.stem)
-    if answers["--circuit"] == Circuit.OPEN.value:
+    if circuit == Circuit.OPEN.value:
         pump = pump.in_open_circuit()
-    doubts = check_pump(pump_of_tables(str(path), pump.tables)).warnings
-    return NewFile(path, "pump", written_pump(pump, _head(path, answers)), _told(path, pump, [*map(str, doubts)]))
+    return pump, [str(one) for one in check_pump(pump_of_tables(str(path), pump.tables)).warnings]
 
 
 def _head(path: Path, answers: Mapping[str, str]) -> list[str]:

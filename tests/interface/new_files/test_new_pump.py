@@ -119,6 +119,16 @@ def test_faults_all_at_once_and_nothing_is_overwritten(tmp_path):
     assert (tmp_path / "mine.toml").read_text("utf-8") == before
 
 
+def test_an_answer_that_makes_no_pump_is_a_fault_of_its_option(tmp_path):
+    """Closed, the inlet is charged; an oil thins as it warms. Each is told where it was said."""
+    with pytest.raises(sf.InputFaults) as refused:
+        _written(tmp_path, pressure="20 bar", oil="6.8 mm2/s, 46 mm2/s")
+    told = {fault.path: f"{fault.found}, {fault.expected}" for fault in refused.value.faults}
+    assert set(told) == {"pressure", "oil"}
+    assert "more than inlet_pressure, 2.5 MPa gauge" in told["pressure"]
+    assert told["oil"].startswith("46 mm2/s, less than the 6.8 mm2/s at 40 degC")
+
+
 def test_an_option_of_another_kind_and_an_unknown_kind(tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert main(["new", "pump", "extra", "--part", "sheet", "--pistns", "9"]) == 2
