@@ -21,6 +21,7 @@ from system.inputs.units import (
     QuantityError,
     format_quantity,
     parse_quantity,
+    parse_share,
     unit_in,
     unit_scale,
     with_point,
@@ -53,12 +54,20 @@ def read_value(field: FieldType, raw: object, folder: Path = HERE) -> object:
         text = _text(raw, field.text, folder)
         return field.file.read(text) if field.file is not None and isinstance(text, Path) else text
     if isinstance(raw, bool) or not isinstance(raw, (int, float)):
-        raise QuantityError(repr(raw), wanted(field), with_point(raw) if isinstance(raw, str) else "")
+        raise QuantityError(repr(raw), wanted(field), _bare(raw, field) if isinstance(raw, str) else "")
     if not math.isfinite(raw) or (field.whole and raw != int(raw)):
         raise QuantityError(str(raw), wanted(field))
     if field.format is not None and not 1 <= raw <= field.format.number:
         raise QuantityError(str(raw), wanted(field), LATER if raw > field.format.number else "")
     return int(raw) if field.whole else float(raw)
+
+
+def _bare(text: str, field: FieldType) -> str:
+    """Return the bare number that a text probably means, "2.6 %" or one with a comma; else an empty string."""
+    try:
+        return f"{parse_share(text):g}" if text.endswith("%") and not field.whole else with_point(text)
+    except QuantityError:
+        return with_point(text)
 
 
 def written_value(field: FieldType, value: Any) -> str:

@@ -129,6 +129,13 @@ def test_an_override_replaces_what_else_states_the_same(tmp_path):
 # What is refused
 
 
+def test_a_share_in_percent_is_told_as_a_bare_number(faults_of):
+    faults, _ = faults_of(friction__piston_cylinder='piston_cylinder = "2.6 %"')
+    assert faults["friction.piston_cylinder"].nearest == "0.026"
+    faults, _ = faults_of(pump__pistons='pistons = "9%"')
+    assert faults["pump.pistons"].nearest == ""
+
+
 def test_unknown_key_names_the_nearest(faults_of):
     faults, message = faults_of(piston__radial_clearance='radial_clearence = "15 um"')
     assert list(faults) == ["piston.radial_clearence"]
