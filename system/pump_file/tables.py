@@ -112,7 +112,9 @@ def _file_law(raw: object, table: Mapping[str, object], reading: Reading) -> dic
 def grade_viscosities(grade: object, table: Mapping[str, object], reading: Reading) -> dict[str, float]:
     """Return the two viscosities of an ISO grade in m2/s, or none with the fault noted."""
     if stated := [key for key in GRADE_KEYS if key in table]:
-        reading.fault("oil.grade", f"grade beside {' and '.join(stated)}", "the grade or the two viscosities")
+        other = [key for key in GRADE_KEYS if key not in stated]
+        near = f"{other[0]} too, in place of the grade" if other else ""
+        reading.fault("oil.grade", f"grade beside {' and '.join(stated)}", "the grade or the two viscosities", near)
     elif not isinstance(grade, str) or grade not in ISO_GRADES:
         expected = f"one of {', '.join(ISO_GRADES)}, or {' and '.join(GRADE_KEYS)} in its place"
         reading.fault("oil.grade", repr(grade), expected, nearest_choice(str(grade), ISO_GRADES))

@@ -233,6 +233,7 @@ def test_absolute_is_for_pressures_only(faults_of):
 def test_grade_beside_a_viscosity(faults_of):
     faults, _ = faults_of(oil__grade='grade = "ISO VG 46"\nkinematic_viscosity_40C = "46 mm2/s"')
     assert list(faults) == ["oil.grade"]
+    assert faults["oil.grade"].nearest == "kinematic_viscosity_100C too, in place of the grade"
 
 
 def test_toml_that_is_none_names_the_line(tmp_path):
