@@ -15,7 +15,7 @@ from diagnosis.recording.model import Recording
 from diagnosis.report.answer import PlainAnswer, plain_answer
 from diagnosis.report.hidden import HiddenEffect, hidden_effects
 from diagnosis.report.measure import NO_NEXT_POINT
-from diagnosis.study.acceptance import accepted_recording, refuse_too_few, refuse_too_rough, refuse_too_smooth
+from diagnosis.study.acceptance import accepted_recording, refuse_too_few, refuse_too_smooth
 from diagnosis.study.model import Study
 from diagnosis.study.prepare import prepare
 from diagnosis.study.scaled.levels import at_level
@@ -71,8 +71,8 @@ def diagnose(
 
     films: floating ones of the simulation, whose `catalogue` of hypotheses is used.
 
-    recording: a path, or a result of `checked_recording`. Raises InputFaults for a recording with faults, too few,
-    too smooth or too rough readings; NotConverged where no fit converges.
+    recording: a path, or a result of `checked_recording`. Raises InputFaults for a recording with faults, too few or
+    too smooth readings; NotConverged where no fit converges.
     """
     known, thresholds = known_pump(pump), load_thresholds()
     candidates = catalogue if films is None else films.catalogue
@@ -84,7 +84,6 @@ def diagnose(
     def prepared(usable: Recording) -> Study:
         study = prepare(described, usable, allowed, thresholds, candidates, known.scant, films)
         refuse_too_few(study)
-        refuse_too_rough(study)
         refuse_too_smooth(study, thresholds.data.least_chi2)
         return study
 

@@ -83,14 +83,21 @@ def too_smooth(chi2: float, readings: int, least: float) -> DataNote | None:
     )
 
 
-def too_rough(scatter: Mapping[ChannelName, float], sigma: Mapping[ChannelName, float]) -> Iterator[DataNote]:
-    """Yield the fault of readings all of which scatter more than stated about any smooth law of the inputs.
+def understated(scatter: Mapping[ChannelName, float]) -> bool:
+    """True for readings all of which scatter more than their repeatability about any smooth law of the inputs.
 
-    Physics shows in some channels and is smooth; a repeatability that is too small shows in all and is not. Of one or
-    two channels, or of a few among others, it is a warning. scatter: in multiples of the usual repeatability, sigma in
-    SI, of channels with enough readings to tell.
+    Physics shows in some channels and is smooth; a repeatability that is too small shows in all and is not. scatter: in
+    multiples of the usual repeatability, of channels with enough readings to tell.
     """
-    every = bool(scatter) and min(scatter.values()) >= ROUGH
+    return len(scatter) >= TOGETHER and min(scatter.values()) >= ROUGH
+
+
+def too_rough(scatter: Mapping[ChannelName, float], sigma: Mapping[ChannelName, float]) -> Iterator[DataNote]:
+    """Yield the warning of readings that scatter more than their repeatability (sigma, SI) about any smooth law.
+
+    Where all do, the scatter is used in its place. scatter as `understated` has it.
+    """
+    every = understated(scatter)
     rough = {name: size for name, size in scatter.items() if every or size >= ROUGH_ALONE}
     if not rough:
         return
@@ -99,9 +106,8 @@ def too_rough(scatter: Mapping[ChannelName, float], sigma: Mapping[ChannelName, 
         for name, size in rough.items()
     )
     text = f"readings scatter more than their repeatability about any smooth law of the inputs: {sizes}"
-    fault = every and len(scatter) >= TOGETHER
-    mend = "state the sigma that repeated points show"
-    yield DataNote(NoteKind.FAULT if fault else NoteKind.WARNED, None, (), f"{text}; {mend}")
+    used = "; this scatter is used" if every else ""
+    yield DataNote(NoteKind.WARNED, None, (), f"{text}{used}; state the sigma that repeated points show")
 
 
 def with_notes(recording: Recording, notes: Iterable[DataNote]) -> Recording:

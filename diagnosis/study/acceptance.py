@@ -16,7 +16,6 @@ from diagnosis.thresholds import load_thresholds
 from system.inputs.faults import Fault, InputFaults
 from system.pump_file.file import KnownPump, builtin_pumps, load_known_pump
 
-STATED = "readings with the noise stated"
 GRADE_BAND = 0.101
 """Of the viscosity of an ISO grade, with a margin for rounding in a file."""
 _GRADE = re.compile(r"\bVG\s*(\d+)", re.IGNORECASE)
@@ -76,14 +75,7 @@ def refuse_too_smooth(study: Study, least_chi2: float) -> None:
     """Raises InputFaults for readings with far less scatter about the fit than their noise."""
     smooth = too_smooth(study.base.objective, study.base.residual.size, least_chi2)
     if smooth is not None:
-        raise InputFaults(study.recording.title, [Fault("recording", smooth.text, STATED)])
-
-
-def refuse_too_rough(study: Study) -> None:
-    """Raises InputFaults for readings all of which scatter more than stated about any smooth law of the inputs."""
-    faults = [note for note in study.recording.notes if note.kind is NoteKind.FAULT]
-    if faults:
-        raise InputFaults(study.recording.title, [replace(_fault(one), expected=STATED) for one in faults])
+        raise InputFaults(study.recording.title, [Fault("recording", smooth.text, "readings with the noise stated")])
 
 
 def _fault(note: DataNote) -> Fault:

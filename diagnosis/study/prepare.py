@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from diagnosis.checks.check import too_rough
+from diagnosis.checks.check import too_rough, understated
 from diagnosis.recording.model import DataNote, NoteKind, Recording
 from diagnosis.recording.series.quasi_steady import THERMOMETER
 from diagnosis.study.drift_course import course_departures, drift_courses, drift_parameters
@@ -96,7 +96,11 @@ def prepare(
         )
         bare = study_of(usable, bench, found, axes, (), thresholds, about)
     else:
-        usable = replace(usable, notes=(*usable.notes, *_rough_notes(bare, thresholds)))
+        scatter, sigma = _scatter(bare, thresholds)
+        usable = replace(usable, notes=(*usable.notes, *too_rough(scatter, sigma)))
+        if understated(scatter):
+            found = replace(found, sigma=found.sigma * [max(1.0, scatter.get(one, 1.0)) for one in channels])
+            bare = study_of(usable, bench, found, axes, (), thresholds, about)
     memory = () if found.correlation else noise_correlation(bare, thresholds.mismatch)
     if memory:
         text = f"residuals persist from point to point: noise is assumed correlated by {memory[0]:.2f} in the order"
@@ -159,12 +163,11 @@ def _excess_notes(channels: tuple[ChannelName, ...], excess: Array, least: float
             yield DataNote(NoteKind.NOTED, channel, (), text)
 
 
-def _rough_notes(bare: Study, thresholds: Thresholds) -> Iterator[DataNote]:
-    """The note on a stated repeatability that is too small for the scatter of the readings, if it is."""
-    scatter = zip(bare.channels, stated_scatter(bare, thresholds.mismatch).tolist(), strict=True)
+def _scatter(bare: Study, thresholds: Thresholds) -> tuple[Mapping[ChannelName, float], Mapping[ChannelName, float]]:
+    """Scatter of each channel with enough readings about any smooth law, over its repeatability; the latter, SI."""
+    sizes = zip(bare.channels, stated_scatter(bare, thresholds.mismatch).tolist(), strict=True)
     usual = np.nanmedian(np.where(bare.observations.measured, bare.observations.sigma, np.nan), axis=0)
-    sigma = dict(zip(bare.channels, usual.tolist(), strict=True))
-    return too_rough({channel: size for channel, size in scatter if size > 0.0}, sigma)
+    return {one: size for one, size in sizes if size > 0.0}, dict(zip(bare.channels, usual.tolist(), strict=True))
 
 
 def _drift_notes(courses: Mapping[ChannelName, Array], recording: Recording) -> Iterator[DataNote]:

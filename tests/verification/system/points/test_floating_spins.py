@@ -62,3 +62,12 @@ def test_films_and_joint_hold_the_spins(found):
 def test_power_is_accounted_for(found):
     """Spins of centred pistons' drag would leave a tenth of the shaft power without a source."""
     assert found.pump_point.checks.energy_balance_error < 1e-3
+
+
+def test_pistons_that_circle_in_their_bores_settle():
+    """At 28 % stroke in hot oil turns circle the periodic motion widely: Newton's step leads to it from within."""
+    pump = load_pump("ref90")
+    hot = operating_point(pump, displacement_ratio=0.28, temperature=343.15)
+    settled = floating_point(pump, hot, FloatingOptions())
+    assert settled.rounds[-1].settled
+    assert settled.pump_point.checks.energy_balance_error < 5e-4
