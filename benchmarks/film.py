@@ -12,15 +12,13 @@ the converged Sommerfeld number 1.31598, the full film with a Richardson extrapo
 from __future__ import annotations
 
 import argparse
-import os
 import platform
-import sys
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import skfem
-from journal_case import ECCENTRICITY, ROUND, THREADS, least, rows
+from journal_case import ECCENTRICITY, ROUND, least, one_thread, rows
 from rich.console import Console
 from rich.table import Table
 from scipy.sparse.linalg import spsolve
@@ -155,8 +153,7 @@ def table(timings: list[Timing]) -> Table:
 
 def main() -> None:
     """Run it anew with one thread, which the numerical libraries read as they are loaded; print the table."""
-    if any(os.environ.get(name) != "1" for name in THREADS):
-        os.execve(sys.executable, [sys.executable, *sys.argv], os.environ | dict.fromkeys(THREADS, "1"))
+    one_thread()
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("--quick", action="store_true", help="no spsolve at 1e6 unknowns")
     everything = not arguments.parse_args().quick

@@ -11,14 +11,12 @@ by the thickness at every place.
 
 from __future__ import annotations
 
-import os
-import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from film import journal, journal_mesh
-from journal_case import THREADS, least
+from journal_case import least, one_thread
 from rich.console import Console
 from rich.table import Table
 
@@ -101,8 +99,7 @@ def table(timings: list[Timing]) -> Table:
 
 def main() -> None:
     """Run it anew with one thread, which the numerical libraries read as they are loaded; print the table."""
-    if any(os.environ.get(name) != "1" for name in THREADS):
-        os.execve(sys.executable, [sys.executable, *sys.argv], os.environ | dict.fromkeys(THREADS, "1"))
+    one_thread()
     timings = []
     for n in CELLS:
         space = film_space(journal_mesh(n))

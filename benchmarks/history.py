@@ -23,7 +23,7 @@ from datetime import date
 from pathlib import Path
 from statistics import median
 
-from journal_case import THREADS, least
+from journal_case import least, one_thread
 from rich.console import Console
 from rich.table import Table
 
@@ -146,8 +146,7 @@ def _processor() -> str:
 
 def main() -> int:
     """Measure, print, keep if asked; 1 where a case is slower than before."""
-    if any(os.environ.get(name) != "1" for name in THREADS):
-        os.execve(sys.executable, [sys.executable, *sys.argv], os.environ | dict.fromkeys(THREADS, "1"))
+    one_thread()
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("--keep", action="store_true", help="append the run to history.csv")
     wanted = arguments.parse_args()

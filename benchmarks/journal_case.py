@@ -11,12 +11,20 @@ zero at the largest film and at the side. It is odd about the least film; its po
 from __future__ import annotations
 
 import math
+import os
+import sys
 import time
 from collections.abc import Callable
 
 ECCENTRICITY = 0.6
 ROUND = 2.0 * math.pi
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
+
+
+def one_thread() -> None:
+    """Run the script anew with one thread a process, unless it has: numerical libraries read that as they load."""
+    if any(os.environ.get(name) != "1" for name in THREADS):
+        os.execve(sys.executable, [sys.executable, *sys.argv], os.environ | dict.fromkeys(THREADS, "1"))
 
 
 def rows(cells: int) -> int:

@@ -16,13 +16,11 @@ Above 100 %, some of them stay in the last cache.
 from __future__ import annotations
 
 import argparse
-import os
-import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from journal_case import ROUND, THREADS, least
+from journal_case import ROUND, least, one_thread
 from numba import njit
 from numpy.typing import NDArray
 from rich.console import Console
@@ -160,8 +158,7 @@ def warm_step(multigrid: Multigrid, data: Array, load: Array, start: Array) -> A
 
 def main() -> None:
     """Print the table."""
-    if any(os.environ.get(name) != "1" for name in THREADS):
-        os.execve(sys.executable, [sys.executable, *sys.argv], os.environ | dict.fromkeys(THREADS, "1"))
+    one_thread()
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quick", action="store_true", help="up to 1e4 unknowns")
     quick = parser.parse_args().quick

@@ -10,6 +10,7 @@ import argparse
 import time
 from dataclasses import replace
 
+from journal_case import one_thread
 from rich.console import Console
 from rich.table import Table
 
@@ -59,6 +60,7 @@ def gaps_of(found: FloatingPoint) -> Table:
 
 def main() -> None:
     """Time a point and print it."""
+    one_thread()
     parser = argparse.ArgumentParser(description="Time one floating point.")
     parser.add_argument("--rigid", action="store_true", help="rigid walls, oil that neither pressure nor heat changes")
     parser.add_argument(

@@ -8,6 +8,7 @@ import time
 from collections.abc import Callable
 from statistics import median
 
+from journal_case import one_thread
 from rich.console import Console
 from rich.table import Table
 
@@ -30,6 +31,7 @@ def seconds(work: Callable[[], object], repeats: int) -> list[float]:
 
 def main() -> None:
     """Time both fidelities and print them."""
+    one_thread()
     pump = load_pump(sys.argv[1] if len(sys.argv) > 1 else "ref90")
     point = operating_point(pump)
     table = Table(title=f"{pump.name} at its own operating point")
