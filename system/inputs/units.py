@@ -12,6 +12,7 @@ from enum import Enum
 from fractions import Fraction
 
 from system.inputs.faults import nearest_choice
+from system.inputs.unit_spellings import spelt_unit
 from system.inputs.unit_text import Unit, unit_of_text
 
 STANDARD_ATMOSPHERE = 101325.0  # Pa; gauge pressure = absolute pressure - this
@@ -104,21 +105,8 @@ class QuantityError(ValueError):
         super().__init__(f"found {found}, expected {expected}" + (f"; try {nearest}" if nearest else ""))
 
 
-_HABITS = {
-    Dimension.TEMPERATURE: {"C": "degC", "c": "degC", "F": "degF", "deg": "degC"},
-    Dimension.DISPLACEMENT: {"ccm": "cm3/rev", "ccm/U": "cm3/rev", "cm3/U": "cm3/rev"},
-    Dimension.VOLUME_FLOW: {
-        "l/m": "L/min", "LPM": "L/min", "l": "L/min",
-        **dict.fromkeys(("gpm", "GPM", "US gpm", "US gal/min"), "gallon/min"),
-    },
-    Dimension.TORQUE: {
-        **dict.fromkeys(("in-lbf", "in-lb", "lb-in", "lbf-in"), "lbf inch"),
-        **dict.fromkeys(("ft-lbf", "ft-lb", "lb-ft", "lbf-ft"), "lbf ft"),
-    },
-    Dimension.ANGULAR_SPEED: {"tr/min": "r/min"},
-    Dimension.PRESSURE: {"psig": "psi", "barg": "bar"},
-}  # fmt: skip
-"""Wrong units that benches write, each with the unit that is meant."""
+_HINTS = {Dimension.TEMPERATURE: {"deg": "degC"}, Dimension.VOLUME_FLOW: {"l": "L/min"}}
+"""Texts that are another unit, each with the unit of the quantity that is probably meant."""
 _TRADE = {
     Dimension.ANGULAR_SPEED: {
         **dict.fromkeys(("1/min", "min-1", "min^-1", "U/min", "upm", "UpM"), "r/min"), "Hz": "r/s", "kHz": "kr/s",
@@ -284,8 +272,9 @@ def without_absolute(text: object) -> object:
 def _meant(unit_text: str, dimension: Dimension) -> str:
     """The unit that a bench means by a text, the text in small letters where that is one, or the one spelt most like
     it; else empty."""
-    if known := _HABITS.get(dimension, {}).get(unit_text, ""):
-        return known
+    spelt = spelt_unit(unit_text) or _HINTS.get(dimension, {}).get(unit_text, "")
+    if spelt and (unit := _unit_for(spelt, dimension)) is not None and _measures(unit, dimension):
+        return spelt
     lowered = unit_text.lower()
     unit = None if lowered == unit_text else unit_of_text(lowered)
     if unit is not None and _measures(unit, dimension):
