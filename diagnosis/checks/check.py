@@ -21,9 +21,7 @@ from system.inputs.channels import ChannelName
 MOST_POINTS = 1000
 """Of a table of steady points: a fit takes time as their number, tests of drift and place as its cube."""
 ROUGH, TOGETHER, ROUGH_ALONE = 1.4, 3, 2.0
-"""Scatter of every channel in multiples of the stated that is too large, the channels from which it is a fault, and the
-scatter of one channel beside others as stated.
-"""
+"""Scatter in multiples of the repeatability: of all channels too much, of TOGETHER channels at least; of one alone."""
 VARIED = 2.0
 """Ratio of flow over displacement ratio between points: more than leakage explains: the speed varied."""
 

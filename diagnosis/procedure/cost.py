@@ -11,12 +11,15 @@ MATERIAL = 0.002
 """Of a flow or a torque: smaller changes are not reported. Of an efficiency as much, 0.1 points."""
 POINTS = 0.1
 COSTS = {
-    "efficiency, overall (ISO 4409)": (-1.0, "{:.2g} points of efficiency", "{:.2g} points more efficiency"),
-    "delivery flow": (-1.0, "{:.2g} L/min of delivery", "{:.2g} L/min more delivery"),
-    "shaft torque": (1.0, "{:.2g} N m of torque", "{:.2g} N m less torque"),
-    "case drain": (1.0, "{:.2g} L/min through the case drain", "{:.2g} L/min less case drain"),
+    "efficiency, overall (ISO 4409)": (-1.0, "{} point{} of efficiency", "{} point{} more efficiency"),
+    "delivery flow": (-1.0, "{} L/min of delivery", "{} L/min more delivery"),
+    "shaft torque": (1.0, "{} N m of torque", "{} N m less torque"),
+    "case drain": (1.0, "{} L/min through the case drain", "{} L/min less case drain"),
 }
-"""Sign of a change that is a cost, its words, and those of the opposite change, by the quantity of a comparison."""
+"""Sign of a change that is a cost, its words, and those of the opposite change, by the quantity of a comparison.
+
+The words have the size and, where they have it, the ending of a plural.
+"""
 BETTER = (
     "So the pump is better than described: look first at the values of its file, stated and assumed, above all "
     "friction and clearances."
@@ -47,8 +50,8 @@ def _material(comparison: PumpComparison) -> Iterator[tuple[bool, str]]:
         if one is not None and is_material(one.unit, one.without, one.found):
             moved = one.found - one.without
             costs = bool(sign * moved > 0.0)
-            words = (cost if costs else gain).format(abs(moved))
-            yield costs, words.replace("1 points", "1 point") if words.startswith("1 ") else words
+            size = f"{abs(moved):.2g}"
+            yield costs, (cost if costs else gain).format(size, "" if size == "1" else "s")
 
 
 def is_material(unit: str, without: float, found: float) -> bool:

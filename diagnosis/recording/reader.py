@@ -76,7 +76,7 @@ def recording_of_tables(label: str, tables: Mapping[str, Any], folder: Path, dat
 
 
 def _first_step(folder: Path) -> str:
-    """What makes a folder a recording: the command for its first table, or a recording of another name in it."""
+    """A recording of another name in a folder, or the command that makes one of its first table; empty without both."""
     files = sorted(one for one in folder.iterdir() if one.is_file())
     own = next((str(one) for one in files if one.suffix.lower() == ".toml"), "")
     table = next((str(one) for one in files if one.suffix.lower() in ENDINGS), "")

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from diagnosis.report.certainty import SURE, certainty, record_words, sure_words
 from diagnosis.report.course import course_words, drift_words
 from diagnosis.report.evidence import evidence
-from diagnosis.report.format import PLACES, effect_words, listed
+from diagnosis.report.format import PLACES, effect_words, listed, sentence_case
 from diagnosis.report.hidden import hidden_effects, hidden_examples
 from diagnosis.report.measure import hidden_words, measure_words
 from diagnosis.report.sizes import size_words
@@ -114,7 +114,7 @@ def inspections(diagnosis: Diagnosis, channels: Collection[ChannelName]) -> Iter
     for effect, gaps in places.items():
         where = f" at {listed((PLACES[gap] for gap in gaps), 'or')}" if gaps else ""
         parts, name = listed(PARTS[gap] for gap in gaps or Gap), effect_words([effect])
-        heading = "" if alone else f"{name[0].upper()}{name[1:]}{where}"
+        heading = "" if alone else f"{sentence_case(name)}{where}"
         beside = f" {LEAK_OUTSIDE}" if effect in outside else ""
         yield Look(effect.value, heading, f"{BENCH_WORDS[effect].look.format(parts=parts)}{beside}")
 

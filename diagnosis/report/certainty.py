@@ -11,7 +11,7 @@ from importlib.resources import files
 
 from scipy.stats import binomtest
 
-from diagnosis.report.format import chance
+from diagnosis.report.format import chance, sentence_case
 from diagnosis.verdict.diagnosis import ClaimedEffect, Diagnosis, VerdictStatus
 from system.effects.effect import EffectId, Kind
 
@@ -143,7 +143,7 @@ def _sentences(diagnosis: Diagnosis, scant: bool) -> Iterator[str]:
     words = sure_words(diagnosis, scant)
     whole = " that this is the whole cause" if scant and diagnosis.effects else ""
     of = _which(diagnosis) or _OF.get(kind, whole)
-    yield f"{words[0].upper()}{words[1:]}{of} (stated probability {chance(probability)})."
+    yield f"{sentence_case(words)}{of} (stated probability {chance(probability)})."
     record = record_of(kind, scant, probability)
     if record is not None:
         yield record_text(record, kind, scant)

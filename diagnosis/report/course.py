@@ -23,7 +23,7 @@ from system.inputs.channels import ChannelName
 ENDS = 0.15
 """Of an axis: the parts at its ends whose difference is stated."""
 NOTHING = 0.005
-"""Of the largest difference: a smaller one is none."""
+"""Of the largest difference: a smaller one is round-off."""
 DRIFTS = {
     ChannelName.Q_OUT: "delivery flow meter", ChannelName.Q_IN: "inlet flow meter", ChannelName.TORQUE: "torque meter",
 }  # fmt: skip
@@ -128,9 +128,9 @@ def _ends(channel: ChannelName, added: Array, axes: Mapping[ChannelName, Array])
     x = axes[axis]
     reach = ENDS * np.ptp(x)
     low, high = x <= x.min() + reach, x >= x.max() - reach
-    none = NOTHING * float(np.abs(added).max())
+    least = NOTHING * float(np.abs(added).max())
     return ", ".join(
-        f"{_difference(channel, float(np.median(added[part])), none)} at "
+        f"{_difference(channel, float(np.median(added[part])), least)} at "
         f"{level_text(axis, float(np.median(x[part])))}{BEHIND.get(axis, '')}"
         for part in (low, high)
     )
@@ -140,10 +140,10 @@ def _correlation(one: Array, other: Array) -> float:
     return float(np.corrcoef(one, other)[0, 1]) if np.ptp(one) > 0.0 else 0.0
 
 
-def _difference(channel: ChannelName, value: float, none: float = 0.0) -> str:
-    size = difference(channel, value)
-    if abs(value) < none:
+def _difference(channel: ChannelName, value: float, least: float = 0.0) -> str:
+    if abs(value) < least:
         return "nothing"
+    size = difference(channel, value)
     return f"{abs(size):.2g} {difference_unit(channel)} {'more' if size > 0.0 else 'less'}"
 
 

@@ -6,7 +6,16 @@ from diagnosis.next_point.choose import NextPoint, RankedPoint
 from diagnosis.recording.units import channel_unit, reading
 from diagnosis.report.certainty import stated_probability
 from diagnosis.report.explanations import rivals
-from diagnosis.report.format import CHANNELS, channel_words, if_words, listed, pressure_text, region_words, setting_text
+from diagnosis.report.format import (
+    CHANNELS,
+    channel_words,
+    if_words,
+    listed,
+    pressure_text,
+    region_words,
+    sentence_case,
+    setting_text,
+)
 from diagnosis.study.map_axes import axis_values
 from diagnosis.study.model import Study
 from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
@@ -42,7 +51,7 @@ def measure_words(diagnosis: Diagnosis) -> str:
         return next_point_text(found)
     failed = next((note for note in diagnosis.notes if note.startswith(NO_NEXT_POINT)), "")
     if found is None and failed:
-        return f"{failed[0].upper()}{failed[1:].rstrip('.')}."
+        return f"{sentence_case(failed).rstrip('.')}."
     if diagnosis.kind is Kind.NO_MISMATCH and diagnosis.status is not VerdictStatus.SUSPICION:
         return NOTHING_MORE
     if not diagnosis.effects:

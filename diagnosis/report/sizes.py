@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from math import floor, log10, pi, sqrt
 from string import Formatter
 
-from diagnosis.report.format import PLACES, last_word, listed, parameter_unit
+from diagnosis.report.format import PLACES, last_word, listed, parameter_unit, sentence_case
 from diagnosis.verdict.diagnosis import ClaimedEffect, Diagnosis, Estimate
 from system.effects.catalogue.bench_words import BENCH_WORDS
 from system.effects.catalogue.entries import entry_of
@@ -40,7 +40,7 @@ def finding_sentence(claim: ClaimedEffect, diagnosis: Diagnosis) -> str:
     sentence = entry_of(claim.effect).sentence
     place = f" at {PLACES[claim.pair]}" if claim.pair else ""
     sizes = listed(f"{last_word(one.name)} {quantity(one)}" for one in claim.parameters)
-    return f"{sentence[0].upper()}{sentence[1:]}{place}{': ' if sizes else ''}{sizes}"
+    return f"{sentence_case(sentence)}{place}{': ' if sizes else ''}{sizes}"
 
 
 def size_words(claim: ClaimedEffect) -> str:

@@ -70,7 +70,7 @@ def headline(diagnosis: Diagnosis) -> str:
     words = found if sure else f"likely {found}"
     if any(alike):
         words += f", {_count(sum(map(bool, alike)))} of which cannot be told from others"
-    return f"{words[0].upper()}{words[1:]}{left}."
+    return f"{sentence_case(words)}{left}."
 
 
 def finding(diagnosis: Diagnosis) -> str:

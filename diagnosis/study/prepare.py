@@ -88,19 +88,10 @@ def prepare(
     bare = study_of(usable, bench, found, axes, (), thresholds)
     about = null_place(bare, thresholds) if scant else {}
     bare = study_of(usable, bench, found, axes, (), thresholds, about) if about else bare
-    if found.correlation:  # of a series: its noise is an estimate
-        excess = noise_excess(bare, thresholds.mismatch)
-        found = replace(found, sigma=found.sigma * excess)
-        usable = replace(
-            usable, notes=(*usable.notes, *_excess_notes(channels, excess, thresholds.mismatch.told_excess))
-        )
-        bare = study_of(usable, bench, found, axes, (), thresholds, about)
-    else:
-        scatter, sigma = _scatter(bare, thresholds)
-        usable = replace(usable, notes=(*usable.notes, *too_rough(scatter, sigma)))
-        if understated(scatter):
-            found = replace(found, sigma=found.sigma * [max(1.0, scatter.get(one, 1.0)) for one in channels])
-            bare = study_of(usable, bench, found, axes, (), thresholds, about)
+    wider, told = _wider_noise(bare, thresholds)
+    usable = replace(usable, notes=(*usable.notes, *told))
+    found = replace(found, sigma=found.sigma * wider)
+    bare = study_of(usable, bench, found, axes, (), thresholds, about) if np.any(wider > 1.0) else bare
     memory = () if found.correlation else noise_correlation(bare, thresholds.mismatch)
     if memory:
         text = f"residuals persist from point to point: noise is assumed correlated by {memory[0]:.2f} in the order"
@@ -155,19 +146,29 @@ def _lag_notes(recording: Recording, meters: tuple[Parameter, ...]) -> Iterator[
             yield DataNote(NoteKind.NOTED, ChannelName.named(one.name.removesuffix(".lag")), (), text)
 
 
+def _wider_noise(bare: Study, thresholds: Thresholds) -> tuple[Array, tuple[DataNote, ...]]:
+    """Factors (C,) of the channels' noise, at least 1, by the scatter of the readings, with notes that tell it.
+
+    The noise of a series is an estimate, which each channel's scatter corrects; that of points is stated, and corrected
+    where all channels contradict it.
+    """
+    limits = thresholds.mismatch
+    if bare.observations.correlation:
+        excess = noise_excess(bare, limits)
+        return excess, tuple(_excess_notes(bare.channels, excess, limits.told_excess))
+    sizes = stated_scatter(bare, limits)
+    usual = np.nanmedian(np.where(bare.observations.measured, bare.observations.sigma, np.nan), axis=0)
+    scatter = {one: float(size) for one, size in zip(bare.channels, sizes, strict=True) if size > 0.0}
+    told = tuple(too_rough(scatter, dict(zip(bare.channels, usual.tolist(), strict=True))))
+    return np.maximum(sizes, 1.0) if understated(scatter) else np.ones_like(sizes), told
+
+
 def _excess_notes(channels: tuple[ChannelName, ...], excess: Array, least: float) -> Iterator[DataNote]:
     """A note on each channel whose means scatter clearly more than their samples' noise predicts."""
     for channel, factor in zip(channels, excess, strict=True):
         if factor > least:
             text = f"the points scatter {factor:.2g} times as much as the samples' noise allows: this scatter is used"
             yield DataNote(NoteKind.NOTED, channel, (), text)
-
-
-def _scatter(bare: Study, thresholds: Thresholds) -> tuple[Mapping[ChannelName, float], Mapping[ChannelName, float]]:
-    """Scatter of each channel with enough readings about any smooth law, over its repeatability; the latter, SI."""
-    sizes = zip(bare.channels, stated_scatter(bare, thresholds.mismatch).tolist(), strict=True)
-    usual = np.nanmedian(np.where(bare.observations.measured, bare.observations.sigma, np.nan), axis=0)
-    return {one: size for one, size in sizes if size > 0.0}, dict(zip(bare.channels, usual.tolist(), strict=True))
 
 
 def _drift_notes(courses: Mapping[ChannelName, Array], recording: Recording) -> Iterator[DataNote]:

@@ -16,6 +16,7 @@ from diagnosis.explain.ranked import Explanation
 from diagnosis.study.map_axes import axis_values
 from diagnosis.study.model import Study
 from diagnosis.study.multipliers import multiplier_columns
+from diagnosis.study.noise_correlation import MEDIAN
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict.diagnosis import Remainder
 from diagnosis.verdict.suspects import remaining
@@ -41,7 +42,6 @@ LEAKAGE_AND_FRICTION = (
     Component.BEARINGS,
 )
 """Components whose laws may vary over the map by the allowance."""
-MEDIAN = float(norm.isf(0.25))  # of |r| in sigma
 
 
 def remainders(

@@ -53,6 +53,11 @@ class Physics:
         return tuple(effect for effect in Effect if not getattr(self, effect.value))
 
     @property
+    def left_out_words(self) -> tuple[str, ...]:
+        """The same in words: "elastic walls"."""
+        return tuple(effect.value.replace("_", " ") for effect in self.left_out)
+
+    @property
     def film_rupture(self) -> Cavitation:
         """Cavitation model of the film solver."""
         return Cavitation.JFO if self.cavitation else Cavitation.NONE

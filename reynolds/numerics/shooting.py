@@ -164,11 +164,11 @@ def _circles(slopes: Array) -> bool:
 
 
 def _next(start: Array, turn: Turn, share: float) -> Array:
-    """The end of as many linearised turns as stay within reach of the turn's end; of circling turns, their centre."""
-    reach = share * turn.reach
-    way, power = turn.end - start, turn.slopes
+    """The end of as many linearised turns as stay within reach of the turn's end; of turns that circle, inwards."""
     if _circles(turn.slopes):
         return _inwards(start, turn, share)
+    reach = share * turn.reach
+    way, power = turn.end - start, turn.slopes
     beyond = np.zeros(len(start))
     for _ in range(MOST_DOUBLINGS):
         further = way + power @ way
@@ -180,9 +180,10 @@ def _next(start: Array, turn: Turn, share: float) -> Array:
 
 
 def _inwards(start: Array, turn: Turn, share: float) -> Array:
-    """Towards the centre that turns circle, by Newton's step: from the turn's end, or as far from its start as it went.
+    """The start of the next turn towards the centre that turns circle, by Newton's step.
 
-    The nearer to the centre of both. A turn that is carried far along its circle is no nearer to the centre at its end.
+    From the turn's end within INWARDS times the reach, or from its start as far as the turn went: the one that comes
+    nearer to the centre. The end of a turn along a wide circle is as far from the centre as its start.
     """
     way = turn.end - start
     centre = start + np.linalg.solve(np.eye(len(start)) - turn.slopes, way)

@@ -90,7 +90,7 @@ def carry_load(problem: FilmProblem, load: RigidLoad, solve: Solve | None = None
     for lean in search.leans():
         try:
             place, found = search.one_freedom(lean)
-            found = found if search.free == [0] else search.newton(place, lean)
+            found = found if search.free == [0] else search.newton(place, lean, found)
         except _Nowhere:
             continue
         return LoadedFilm(found.position, found.solution, *found.supported, found.rest, search.films)
@@ -256,13 +256,13 @@ class _LoadSearch:
         except (FilmNotConverged, InputError):
             return None
 
-    def newton(self, place: float, lean: tuple[float, float]) -> _Tried:
-        """The film that bears force and moments, from a place and tilts on; raises _Nowhere.
+    def newton(self, place: float, lean: tuple[float, float], here: _Tried) -> _Tried:
+        """The film that bears force and moments, from that at a place and tilts on; raises _Nowhere.
 
         Unknowns are the place and the free tilts of `_leaning`, of which the force's place follows the tilts and the
         logarithm of the force the place, both nearly linear.
         """
-        at, here = np.array([place, *lean])[self.free], self.at(self._leaning(place, lean))
+        at = np.array([place, *lean])[self.free]
         slopes: Array | None = None
         while here.rest > TOLERANCE:
             if fresh := slopes is None:

@@ -18,6 +18,12 @@ def add_set_option(parser: argparse.ArgumentParser, of: str = "the pump file", e
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help=what)
 
 
+def add_pump_argument(parser: argparse.ArgumentParser) -> None:
+    """Add the pump to the parser of a command whose default is the reference pump."""
+    what = "built-in name (ref90, the default) or pump file"
+    parser.add_argument("pump", nargs="?", default="ref90", metavar="PUMP", help=what)
+
+
 def set_values(texts: Iterable[str], faults: list[Fault], example: str = EXAMPLE) -> dict[str, object]:
     """Return the values of --set by key, as written in a file.
 

@@ -13,7 +13,9 @@ from system.inputs.units import Dimension, QuantityError, unit_scale
 
 DIMENSIONS = (*OTHER_UNITS, Dimension.POWER, Dimension.TIME)
 """Of the channels of a steady table, and of its time."""
-_TIMES = frozenset("s sec second seconds ms us µs min h hr hrs hour hours d day days".split())
+_TIMES = frozenset(
+    ["s", "sec", "second", "seconds", "ms", "us", "µs", "min", "h", "hr", "hrs", "hour", "hours", "d", "day", "days"]
+)
 """Of a recording; other letters mean another quantity: mA, PS."""
 _REFERENCED = re.compile(r"(bar|psi|mpa|kpa|pa)[\s_.(]*(abs|a|gauge|g|rel|ü)\)?\.?", re.IGNORECASE)
 _GAUGE = ("g", "gauge", "rel", "ü")

@@ -12,7 +12,7 @@ from swashfilm.case.gap.switches import add_floating_options
 from swashfilm.console.command import Command
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.inputs import COMMAND_LINE, expect, given_text, option_value, whole
-from swashfilm.console.settings import add_set_option, set_values
+from swashfilm.console.settings import add_pump_argument, add_set_option, set_values
 from swashfilm.console.terminal import show, show_at_once, show_result
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 
@@ -51,8 +51,7 @@ PLANS = ("paper", "point")
 
 def add_map_options(command: argparse.ArgumentParser) -> None:
     """Add the arguments of the command to its parser."""
-    what = "built-in name (ref90, the default) or pump file"
-    command.add_argument("pump", nargs="?", default="ref90", metavar="PUMP", help=what)
+    add_pump_argument(command)
     for option, (_, example, what) in LEVELS.items():
         command.add_argument(option, metavar=example, help=f"{what}; a..b:n: n levels; one value: constant")
     add_set_option(command)

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swashfilm.console.command import Command
-from swashfilm.console.settings import add_set_option
+from swashfilm.console.settings import add_pump_argument, add_set_option
 from swashfilm.console.terminal import show_result
 from swashfilm.runs.map.command import LEVELS
 
@@ -21,8 +21,7 @@ STEPS = 100
 
 def add_plan_options(command: argparse.ArgumentParser) -> None:
     """Add the arguments of the command to its parser."""
-    what = "built-in name (ref90, the default) or pump file"
-    command.add_argument("pump", nargs="?", default="ref90", metavar="PUMP", help=what)
+    add_pump_argument(command)
     add_set_option(command)
     for option, (_, example, what) in LEVELS.items():
         command.add_argument(option, metavar=example, help=f"planned {what}; a..b:n: n levels; one value: constant")

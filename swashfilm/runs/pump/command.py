@@ -13,7 +13,7 @@ from swashfilm.case.gap.switches import SWITCHES, add_floating_options
 from swashfilm.console.command import Command
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.inputs import COMMAND_LINE, expect, given_text, option_value, whole
-from swashfilm.console.settings import LEVELS_EXAMPLE, add_set_option, set_values
+from swashfilm.console.settings import LEVELS_EXAMPLE, add_pump_argument, add_set_option, set_values
 from swashfilm.console.terminal import show, show_result
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 from system.inputs.units import QuantityError, parse_share
@@ -36,8 +36,7 @@ _FIDELITIES = [fidelity.value for fidelity in Fidelity]
 
 def add_run_options(command: argparse.ArgumentParser) -> None:
     """Add the arguments of the command to its parser."""
-    what = "built-in name (ref90, the default) or pump file"
-    command.add_argument("pump", nargs="?", default="ref90", metavar="PUMP", help=what)
+    add_pump_argument(command)
     for option, (_, example, what) in _OVERRIDES.items():
         command.add_argument(option, metavar=example, help=f"{what}; default: that of the pump file")
     what = (

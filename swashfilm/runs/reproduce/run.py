@@ -72,7 +72,7 @@ def about(asked: ReproduceCase) -> str:
             f"The statements are about the paper's pump, which {own.name} represents. For {named} the verdicts compare "
             "two different pumps; they do not test the statements."
         )
-    without = [effect.value.replace("_", " ") for effect in asked.floating.physics.left_out]
+    without = asked.floating.physics.left_out_words
     if asked.fidelity is PaperFidelity.FLOATING and without:
         remarks.append(f"The floating films leave out: {', '.join(without)}.")
     return " ".join(remarks)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from swashfilm.case.gap.switches import add_floating_options
 from swashfilm.console.fidelity import Fidelity
-from swashfilm.console.settings import add_set_option
+from swashfilm.console.settings import add_pump_argument, add_set_option
 from swashfilm.runs.map.command import FIDELITIES, LEVELS, PLANS, SOLVED
 from system.inputs.faults import Fault
 
@@ -23,8 +23,7 @@ if TYPE_CHECKING:
 
 def add_varied_options(command: argparse.ArgumentParser) -> None:
     """Add the arguments of a varied pump to the parser of a command."""
-    what = "built-in name (ref90, the default) or pump file"
-    command.add_argument("pump", nargs="?", default="ref90", metavar="PUMP", help=what)
+    add_pump_argument(command)
     add_set_option(command)
     for option, (_, example, what) in LEVELS.items():
         command.add_argument(option, metavar=example, help=f"{what}; a..b:n: n levels; one value: constant")

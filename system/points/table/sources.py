@@ -117,10 +117,9 @@ class FloatingSolver:
         """Inputs of its numbers."""
         options = self.options
         cells = (options.piston_cells, options.slipper_cells, options.block_cells)
-        without = [effect.value.replace("_", " ") for effect in options.physics.left_out]
         exact = options.accuracy
         return {
-            "physics": f"gaps float; {LEFT_OUT}{', '.join(without) or NOTHING}",
+            "physics": f"gaps float; {LEFT_OUT}{', '.join(options.physics.left_out_words) or NOTHING}",
             "mesh": f"cells of piston, slipper, block {', '.join(f'{x} x {y}' for x, y in cells)}",
             "accuracy": f"{options.steps} angles a turn; a step errs by {exact.step:g} of the least film and "
             f"{exact.floor:g} m at most, a turn closes to {exact.closed:g} of the mean film; chamber pressure "
